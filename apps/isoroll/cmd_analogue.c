@@ -31,8 +31,6 @@ static int run(iso_context *ctx, const void *options_given)
     return finish(ctx, status);
 }
 
-static const options defaults = {.file = "-"};
-
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_analogue_option),
     ROW_END,
@@ -40,6 +38,7 @@ static const option_row rows[] = {
 
 const command command_analogue = {
     COMMAND_OF_STUDY(analogue, "[SCENE]", file),
+    .run = run,
     .takes = FILE_SCENE,
     .description =
         "The problem is a scene of a 'point', or --neumann, or --k, --J and --eps. If the problem is a "

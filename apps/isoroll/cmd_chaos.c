@@ -1,19 +1,11 @@
 /* isoroll chaos - tells whether an orbit is chaotic, and which part of the section is chaotic. */
-#include <math.h>
 #include <string.h>
 
+#include "command.h"
 #include "instrument/chaos/chaos_impl.h"
 #include "plot/draw.h"
-#include "shell.h"
-#include "study/study_impl.h"
 
-/* What chaos can be told. */
-typedef struct options {
-    iso_chaos_request study;
-    shell_options shell;
-} options;
-
-/* --- files ------------------------------------------------------------------------------------------------------ */
+OPTIONS_OF_SCENE(iso_chaos_request);
 
 /* Of a model that was not followed there is no table. */
 static int draw_indicators(const shell *s)
@@ -30,7 +22,7 @@ static int draw_indicators(const shell *s)
     }
     if (status == ISO_OK && count == 0)
         status = iso_context_fail(s->ctx, ISO_BAD_INPUT, "", "no picture: there is no row of indicators");
-    if (status == ISO_OK) status = plot_tables(s->ctx, &s->told->plot, table, NULL);
+    if (status == ISO_OK) status = plot_tables(s->ctx, &s->common->plot, table, NULL);
     return finish(s->ctx, status);
 }
 
@@ -44,11 +36,9 @@ static int draw(const shell *s)
                                            "followed; --starts N draws the section of its energy"));
 }
 
-/* --- the command ------------------------------------------------------------------------------------------------ */
-
 static iso_status check(const shell *s)
 {
-    if (!s->told->table || strcmp(s->told->table, "-") != 0 || !s->told->json) return ISO_OK;
+    if (!s->common->table || strcmp(s->common->table, "-") != 0 || !s->common->json) return ISO_OK;
     return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "csv",
                             "chaos: standard output has room for one of --csv - and --json");
 }
@@ -64,18 +54,6 @@ static void complain_interrupted(const shell *s)
         complain("interrupted: without a verdict so far, the orbit is undecided");
 }
 
-static int run(iso_context *ctx, const void *options_given)
-{
-    static const shell_parts parts = {.study = &iso_chaos_study,
-                                      .kind = "chaos",
-                                      .check = check,
-                                      .interrupted = complain_interrupted,
-                                      .draw = draw};
-    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
-}
-
-static const options defaults = {.shell = {.file = "-"}};
-
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_chaos_option),
     ROWS_OF_PLOT(options, shell.plot),
@@ -86,8 +64,8 @@ static const option_row rows[] = {
 };
 
 const command command_chaos = {
-    COMMAND_OF_STUDY(chaos, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(chaos),
+    .parts = {.kind = "chaos", .check = check, .interrupted = complain_interrupted, .draw = draw},
     .description =
         "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
         "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0, on every "

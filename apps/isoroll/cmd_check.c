@@ -1,6 +1,4 @@
 /* isoroll check - tests whether a trajectory solves its model. */
-#include <string.h>
-
 #include "base/number_impl.h"
 #include "json.h"
 #include "parameters.h"
@@ -13,8 +11,6 @@ typedef struct options {
     const char *file, *scene, *columns; /* NULL: not given */
     bool json;
 } options;
-
-/* --- the check -------------------------------------------------------------------------------------------------- */
 
 /* Prints what was found; its exit status. */
 static int report(const options *o, const iso_study_result *r)
@@ -52,8 +48,6 @@ static int run(iso_context *ctx, const void *options_given)
     return result;
 }
 
-static const options defaults = {.file = "-"};
-
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_check_option),
     ROW_OF_ITS_SCENE(options, scene),
@@ -64,6 +58,7 @@ static const option_row rows[] = {
 
 const command command_check = {
     COMMAND_OF_STUDY(check, "[FILE]", file),
+    .run = run,
     .takes = FILE_ROWS,
     .description =
         "Prints residuals: of constraints, of integrals, of every column, and of the # lines that state an energy "

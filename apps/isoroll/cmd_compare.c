@@ -1,20 +1,11 @@
 /* isoroll compare - computes one orbit by every backend and shows the differences: table, picture, JSON. */
-#include <math.h>
-
-#include "base/number_impl.h"
+#include "command.h"
 #include "model/effects/effects_impl.h"
 #include "picture/picture_impl.h"
 #include "plot/draw.h"
-#include "shell.h"
 #include "task/task_impl.h"
 
-/* What compare can be told. */
-typedef struct options {
-    iso_compare_request study;
-    shell_options shell;
-} options;
-
-/* --- JSON ------------------------------------------------------------------------------------------------------- */
+OPTIONS_OF_SCENE(iso_compare_request);
 
 static json_t *json(const shell *s)
 {
@@ -25,39 +16,29 @@ static json_t *json(const shell *s)
     return o;
 }
 
-/* --- the picture ------------------------------------------------------------------------------------------------ */
-
-static void tell_result(const iso_scene *scene, const iso_comparison *c, char text[], size_t size)
-{
-    char words[ISO_COMPARISON_WORDS];
-    double worst;
-    const bool same = iso_comparison_words(scene, c, &worst, words);
-    snprintf(text, size, "%s %s %.1e",
-             c->runs == ISO_BACKENDS
-                 ? "three computations, by the ball's equations, the point's, and the closed solution,"
-                 : "two computations, by the ball's equations and by the point's,",
-             same ? "agree to" : "differ by", worst);
-}
-
 static int draw(const shell *s)
 {
-    char result[200];
+    char result[200], unused[ISO_COMPARISON_WORDS];
+    double worst;
     const iso_comparison *c = s->result.found;
     const size_t rows = iso_record_rows(c->difference);
     iso_record *curve, *states;
     if (rows == 0) return EXIT_DONE;
     const double end = iso_record_const_row(c->run[ISO_BALL].trajectory, rows - 1)[ISO_CLOCK_T];
     iso_status status = iso_picture_stretch(s->ctx, &s->scene, end, &states, &curve);
-    tell_result(&s->scene, c, result, sizeof result);
+    const bool same = iso_comparison_words(&s->scene, c, &worst, unused);
+    snprintf(result, sizeof result, "%s %s %.1e",
+             c->runs == ISO_BACKENDS
+                 ? "three computations, by the ball's equations, the point's, and the closed solution,"
+                 : "two computations, by the ball's equations and by the point's,",
+             same ? "agree to" : "differ by", worst);
     if (status == ISO_OK) status = iso_record_set(s->ctx, states, "result", result);
     if (status == ISO_OK)
-        status = plot_tables(s->ctx, &s->told->plot, (const iso_record *[]){states, curve, NULL}, NULL);
+        status = plot_tables(s->ctx, &s->common->plot, (const iso_record *[]){states, curve, NULL}, NULL);
     iso_record_free(curve);
     iso_record_free(states);
     return finish(s->ctx, status);
 }
-
-/* --- the command ------------------------------------------------------------------------------------------------ */
 
 static void complain_interrupted(const shell *s)
 {
@@ -67,18 +48,6 @@ static void complain_interrupted(const shell *s)
                  iso_scene_rows(&s->scene));
 }
 
-static int run(iso_context *ctx, const void *options_given)
-{
-    static const shell_parts parts = {.study = &iso_compare_study,
-                                      .change = shell_change,
-                                      .interrupted = complain_interrupted,
-                                      .json = json,
-                                      .draw = draw};
-    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
-}
-
-static const options defaults = {.shell = {.file = "-"}};
-
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_compare_option),
     ROWS_OF_PLOT(options, shell.plot),
@@ -87,8 +56,8 @@ static const option_row rows[] = {
 };
 
 const command command_compare = {
-    COMMAND_OF_STUDY(compare, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(compare),
+    .parts = {.change = shell_change, .interrupted = complain_interrupted, .json = json, .draw = draw},
     .description =
         "The backends are ball, point and, where there is a closed solution, exact. The table shows states, "
         "clocks and integrals by each of them. Differences of states are relative to the size of the "

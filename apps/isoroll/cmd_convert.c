@@ -1,9 +1,8 @@
 /* cmd_convert.c - `isoroll convert`: a filter that reads a trajectory of one model and writes that of the other. */
 #include <math.h>
 
-#include "base/number_impl.h"
-#include "certified.h"
 #include "file_kind.h"
+#include "instrument/certify/certify_impl.h"
 #include "parameters.h"
 #include "stream.h"
 #include "task/convert/convert_impl.h"
@@ -18,37 +17,31 @@ enum { ALL_DIGITS = 17 };
 
 /* --- certified orbits ------------------------------------------------------------------------------------------- */
 
-static bool is_certified(const char *path)
-{
-    char table[ISO_KIND_SIZE];
-    return file_kind(path, table) == FILE_CERTIFIED;
-}
-
 static iso_status check_certified(iso_context *ctx, const options *o)
 {
     const iso_convert_request *r = &o->study;
     const iso_added *added = &r->added;
-    const certified_option others[] = {{o->digits != ALL_DIGITS, "digits"},
-                                       {r->tolerance != ISO_CONVERT_TOLERANCE, "tol"},
-                                       {!isnan(added->k), "k"},
-                                       {!isnan(added->J[0]), "J"},
-                                       {!isnan(added->eps), "eps"},
-                                       {!isnan(added->h), "h"},
-                                       {o->scene != NULL, "scene"},
-                                       {o->columns != NULL, "columns"},
-                                       {added->row_tolerance != ISO_ROW_TOLERANCE, "row-tolerance"},
-                                       {!isnan(r->max_defect), "max-defect"},
-                                       {r->shift_J, "shift-J"},
-                                       {iso_table_is_hdf5(o->output), "output"},
-                                       {false, NULL}};
-    return certified_refuse(
-        ctx, others, "a certified orbit has all numbers in its file, and becomes a text file with as many digits");
+    const given_option others[] = {{o->digits != ALL_DIGITS, "digits"},
+                                   {r->tolerance != ISO_CONVERT_TOLERANCE, "tol"},
+                                   {!isnan(added->k), "k"},
+                                   {!isnan(added->J[0]), "J"},
+                                   {!isnan(added->eps), "eps"},
+                                   {!isnan(added->h), "h"},
+                                   {o->scene != NULL, "scene"},
+                                   {o->columns != NULL, "columns"},
+                                   {added->row_tolerance != ISO_ROW_TOLERANCE, "row-tolerance"},
+                                   {!isnan(r->max_defect), "max-defect"},
+                                   {r->shift_J, "shift-J"},
+                                   {iso_table_is_hdf5(o->output), "output"},
+                                   {false, NULL}};
+    return refuse_given(ctx, others,
+                        "a certified orbit has all numbers in its file, and becomes a text file with as many digits");
 }
 
 static int convert_certified(iso_context *ctx, const options *o)
 {
-    certified_file to = {ctx, o->output, NULL};
-    const iso_certify_sink sink = {certified_line, NULL, &to};
+    stream to = {.ctx = ctx, .output = o->output};
+    const iso_certify_sink sink = {stream_line, NULL, &to};
     iso_status status = check_certified(ctx, o);
     size_t rows = 0;
     FILE *file = status == ISO_OK ? fopen(o->file, "re") : NULL;
@@ -59,7 +52,7 @@ static int convert_certified(iso_context *ctx, const options *o)
         status = iso_certify_convert(ctx, file, o->file, o->study.to, &sink, &rows);
         fclose(file);
     }
-    const int result = certified_close(&to, status, status == ISO_OK || status == ISO_STOPPED);
+    const int result = stream_close(&to, status, status == ISO_OK || status == ISO_STOPPED);
     if (status == ISO_STOPPED) complain("interrupted: %zu rows were converted", rows);
     if (result == EXIT_DONE && !o->study.quiet) complain("%s: %zu rows, all enclosed", o->file, rows);
     return result;
@@ -108,7 +101,7 @@ static int run(iso_context *ctx, const void *options_given)
     const options *o = options_given;
     iso_table_reader *in = NULL;
     iso_scene scene;
-    if (is_certified(o->file)) return convert_certified(ctx, o);
+    if (file_kind(o->file, (char[ISO_KIND_SIZE]){0}) == FILE_CERTIFIED) return convert_certified(ctx, o);
     iso_status status = iso_table_reader_open(ctx, o->file, "trajectory", o->columns, &in);
     if (status == ISO_OK && o->scene) status = iso_scene_load(ctx, o->scene, &scene);
     const int result = status == ISO_OK ? convert(ctx, o, o->scene ? &scene : NULL, in)
@@ -131,6 +124,8 @@ static const option_row rows[] = {
 
 const command command_convert = {
     COMMAND_OF_STUDY(convert, "[FILE]", file),
+    .defaults = &defaults,
+    .run = run,
     .takes = FILE_ROWS | FILE_CERTIFIED,
     .description =
         "A filter: row by row, in constant memory. It reads files of other programs, too. k, J and h or eps come "

@@ -2,21 +2,16 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number_impl.h"
-#include "shell.h"
+#include "command.h"
 #include "task/cost/cost_impl.h"
 
-/* What cost can be told. */
-typedef struct options {
-    iso_cost_request study;
-    shell_options shell;
-} options;
+OPTIONS_OF_SCENE(iso_cost_request);
 
 static iso_status check(const shell *s)
 {
-    const bool table = s->told->table && strcmp(s->told->table, "-") == 0,
+    const bool table = s->common->table && strcmp(s->common->table, "-") == 0,
                want = !isnan(((const options *)s->options)->study.want);
-    if (table && (s->told->json || want))
+    if (table && (s->common->json || want))
         return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "output",
                                 "cost: standard output has room for one: choose -o -, --json or --want");
     return ISO_OK;
@@ -33,11 +28,11 @@ static void complain_interrupted(const shell *s)
 }
 
 /* The error and time to expect of the choice go to stderr. */
-static int tell_expected(const shell *s)
+static int print_expected(const shell *s)
 {
     char text[ISO_COST_EXPECTED];
     const iso_cost_found *f = s->result.found;
-    if (isnan(f->want) || s->told->json) return EXIT_DONE;
+    if (isnan(f->want) || s->common->json) return EXIT_DONE;
     iso_cost_expected(f, text);
     complain("%s", text);
     return EXIT_DONE;
@@ -50,20 +45,6 @@ static int draw(const shell *s)
     return complain("no picture: nothing has been measured"), EXIT_DONE;
 }
 
-static int run(iso_context *ctx, const void *options_given)
-{
-    static const shell_parts parts = {.study = &iso_cost_study,
-                                      .kind = "cost",
-                                      .check = check,
-                                      .change = shell_change,
-                                      .interrupted = complain_interrupted,
-                                      .write = tell_expected,
-                                      .draw = draw};
-    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
-}
-
-static const options defaults = {.shell = {.file = "-"}};
-
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_cost_option),
     ROWS_OF_PLOT(options, shell.plot),
@@ -74,8 +55,13 @@ static const option_row rows[] = {
 };
 
 const command command_cost = {
-    COMMAND_OF_STUDY(cost, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(cost),
+    .parts = {.kind = "cost",
+              .check = check,
+              .change = shell_change,
+              .interrupted = complain_interrupted,
+              .write = print_expected,
+              .draw = draw},
     .description =
         "All backends, methods and tolerances are measured. --backend, --method or --tol restrict the measurement to "
         "one; the scene's own backend, method and tolerance are not read.\n\n"

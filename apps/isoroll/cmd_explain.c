@@ -2,15 +2,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "shell.h"
+#include "command.h"
 #include "sweep/sweep_impl.h"
-#include "task/explain/explain_impl.h"
 #include "terminal.h"
 
-typedef struct options {
-    iso_scene_request study;
-    shell_options shell;
-} options;
+OPTIONS_OF_SCENE(iso_scene_request);
 
 static bool changes(const iso_scene_changes *c)
 {
@@ -38,13 +34,11 @@ static int run_sweep(iso_context *ctx, const options *o)
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const shell_parts parts = {.study = &iso_explain_study, .change = shell_change};
+    static const shell_parts parts = {.change = shell_change};
     const options *o = options_given;
-    return file_kind(o->shell.file, (char[ISO_KIND_SIZE]){0}) == FILE_SWEEP ? run_sweep(ctx, o)
-                                                                            : shell_run(ctx, &parts, o, &o->shell);
+    if (file_kind(o->shell.file, (char[ISO_KIND_SIZE]){0}) == FILE_SWEEP) return run_sweep(ctx, o);
+    return shell_run(ctx, &iso_explain_study, &parts, o, &o->shell);
 }
-
-static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_scene_change_option),
@@ -53,6 +47,7 @@ static const option_row rows[] = {
 
 const command command_explain = {
     COMMAND_OF_STUDY(explain, "SCENE", shell.file),
+    .run = run,
     .takes = FILE_SCENE | FILE_SWEEP,
     .description =
         "Tells the ball's parameters, the effects that act, whether the orbit has a twin, which Poincare section is "

@@ -1,22 +1,11 @@
 /* isoroll frequencies - tells how fast a motion turns and swings: exactly where a closed solution does it, else by an
  * estimate from an orbit. */
-#include <math.h>
-#include <string.h>
-
+#include "command.h"
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/frequencies/momentum.h"
 #include "plot/draw.h"
-#include "shell.h"
-#include "study/options_impl.h"
-#include "study/study_impl.h"
 
-/* What frequencies can be told. */
-typedef struct options {
-    iso_frequencies_options study;
-    shell_options shell;
-} options;
-
-/* --- the picture ------------------------------------------------------------------------------------------------ */
+OPTIONS_OF_SCENE(iso_frequencies_options);
 
 /* The map (h, F), or the spectral lines of n(t). After a closed solution without a map they are estimated here. */
 static iso_status draw_found(const shell *s, iso_frequencies *f)
@@ -42,23 +31,12 @@ static int draw(const shell *s)
     return finish(s->ctx, draw_found(s, &f));
 }
 
-/* --- the command ------------------------------------------------------------------------------------------------ */
-
 /* --t-end says the end, not the scene. */
 static iso_status forget_end(shell *s)
 {
     iso_scene_forget_place(&s->scene, "end");
     return ISO_OK;
 }
-
-static int run(iso_context *ctx, const void *options_given)
-{
-    static const shell_parts parts = {
-        .study = &iso_frequencies_study, .change = forget_end, .stopped = "no frequencies", .draw = draw};
-    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
-}
-
-static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_frequencies_option),
@@ -68,8 +46,8 @@ static const option_row rows[] = {
 };
 
 const command command_frequencies = {
-    COMMAND_OF_STUDY(frequencies, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(frequencies),
+    .parts = {.change = forget_end, .stopped = "no frequencies", .draw = draw},
     .description =
         "Where there is a closed solution (k = 1, k = -1, equal moments, principal planes; no rotor) the numbers are "
         "exact. Elsewhere they are estimated from an orbit in the ball's time t, by Laskar's frequency analysis. "

@@ -1,26 +1,8 @@
 /* isoroll integrals - searches for additional first integrals: polynomials in M that are constant on many orbits. */
-#include <math.h>
-
-#include "base/number_impl.h"
+#include "command.h"
 #include "instrument/integrals/integrals_impl.h"
-#include "shell.h"
-#include "study/study_impl.h"
 
-/* What integrals can be told. */
-typedef struct options {
-    iso_integral_search_options study;
-    shell_options shell;
-} options;
-
-/* --- the command ------------------------------------------------------------------------------------------------ */
-
-static int run(iso_context *ctx, const void *options_given)
-{
-    static const shell_parts parts = {.study = &iso_integrals_study, .stopped = "what is known by now is printed"};
-    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
-}
-
-static const options defaults = {.shell = {.file = "-"}};
+OPTIONS_OF_SCENE(iso_integral_search_options);
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_integrals_option),
@@ -29,8 +11,8 @@ static const option_row rows[] = {
 };
 
 const command command_integrals = {
-    COMMAND_OF_STUDY(integrals, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(integrals),
+    .parts = {.stopped = "what is known by now is printed"},
     .description =
         "Looks for functions of the point's state that are constant along orbits: polynomials in M of degree D or "
         "less, with coefficients that are polynomials in gamma of degree E or less. Of the scene it reads k, J and "

@@ -25,12 +25,12 @@ static int run(iso_context *ctx, const void *options_given)
     return finish(ctx, status);
 }
 
-static const options defaults = {.topic = "-"};
-
 static const option_row rows[] = {ROW_END};
 
 const command command_list = {
-    COMMAND("list", "[TOPIC]", "list what there is: systems, backends, effects, methods, columns, ...", topic),
+    COMMAND_OF_ZEROS("list", "[TOPIC]", "list what there is: systems, backends, effects, methods, columns, ...",
+                     topic),
+    .run = run,
     .word = iso_list_topic,
     .description = "A topic is systems, backends, effects, methods, surfaces, integrals, clocks, columns or tables. "
                    "Without one, "

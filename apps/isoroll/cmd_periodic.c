@@ -1,48 +1,27 @@
 /* isoroll periodic - finds periodic orbits and tells whether they are stable; follows them; draws a chart. */
-#include <math.h>
-#include <stdlib.h>
-
-#include "base/number_impl.h"
+#include "command.h"
 #include "instrument/periodic/periodic_study_impl.h"
-#include "scene_options.h"
-#include "shell.h"
-#include "study/study_impl.h"
 
-/* What periodic can be told. */
-typedef struct options {
-    iso_periodic_request study;
-    shell_options shell;
-} options;
+OPTIONS_OF_SCENE(iso_periodic_request);
 
-/* --- the list --------------------------------------------------------------------------------------------------- */
-
-/* A row for each crossing of each orbit, as it is drawn. */
-static iso_status put_crossings(iso_context *ctx, const iso_periodic *found, iso_record *table)
-{
-    iso_status status = ISO_OK;
-    for (size_t i = 0; i < found->count; i++) {
-        iso_periodic_orbit o = found->orbit[i];
-        for (int n = 0; status == ISO_OK && n < 2 * o.period; n++) {
-            o.l = found->orbit[i].half[n][0], o.x = found->orbit[i].half[n][1];
-            status = iso_columns_append(ctx, iso_periodic_orbit_fields, &o, table);
-        }
-    }
-    return status;
-}
-
+/* Draws a row for each crossing of each orbit. */
 static int draw_list(const shell *s)
 {
     const iso_periodic *f = s->result.found;
     iso_record *whole = NULL;
     if (f->count == 0) return complain("no picture: there is no orbit"), EXIT_SOME_FAILED;
     iso_status status = iso_record_create_like(s->ctx, s->result.table[0], 0, NULL, &whole);
-    if (status == ISO_OK) status = put_crossings(s->ctx, f, whole);
+    for (size_t i = 0; i < f->count; i++) {
+        iso_periodic_orbit o = f->orbit[i];
+        for (int n = 0; status == ISO_OK && n < 2 * o.period; n++) {
+            o.l = f->orbit[i].half[n][0], o.x = f->orbit[i].half[n][1];
+            status = iso_columns_append(s->ctx, iso_periodic_orbit_fields, &o, whole);
+        }
+    }
     const int result = status == ISO_OK ? shell_draw(s, whole) : finish(s->ctx, status);
     iso_record_free(whole);
     return result;
 }
-
-/* --- branches --------------------------------------------------------------------------------------------------- */
 
 static int draw_branches(const shell *s)
 {
@@ -50,14 +29,10 @@ static int draw_branches(const shell *s)
 }
 
 /* Interrupted while orbits were sought, or followed. */
-static void complain_branches(const shell *s)
+static void complain_interrupted(const shell *s)
 {
     complain(s->result.found ? "interrupted: branches are missing or cut" : "interrupted: orbits are missing");
 }
-
-/* --- the chart -------------------------------------------------------------------------------------------------- */
-
-/* --- the command ------------------------------------------------------------------------------------------------ */
 
 static json_t *json_without_scene(const shell *s)
 {
@@ -66,24 +41,16 @@ static json_t *json_without_scene(const shell *s)
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const shell_parts list = {.study = &iso_periodic_study,
-                                     .kind = "periodic",
-                                     .stopped = "orbits are missing",
-                                     .draw = draw_list},
-                             follow = {.study = &iso_periodic_study,
-                                       .kind = "periodic follow",
-                                       .interrupted = complain_branches,
+    static const shell_parts list = {.kind = "periodic", .stopped = "orbits are missing", .draw = draw_list},
+                             follow = {.kind = "periodic follow",
+                                       .interrupted = complain_interrupted,
                                        .json = json_without_scene,
                                        .draw = draw_branches},
-                             chart = {.study = &iso_periodic_study,
-                                      .kind = "periodic chart",
-                                      .stopped = "no chart",
-                                      .json = json_without_scene};
+                             chart = {.kind = "periodic chart", .stopped = "no chart", .json = json_without_scene};
     const options *o = options_given;
-    return shell_run(ctx, o->study.chart ? &chart : o->study.follow ? &follow : &list, o, &o->shell);
+    const shell_parts *parts = o->study.chart ? &chart : o->study.follow ? &follow : &list;
+    return shell_run(ctx, &iso_periodic_study, parts, o, &o->shell);
 }
-
-static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_periodic_option),
@@ -94,8 +61,8 @@ static const option_row rows[] = {
 };
 
 const command command_periodic = {
-    COMMAND_OF_STUDY(periodic, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(periodic),
+    .run = run,
     .description =
         "Shows the rotations about the principal axes first: the trace of Hill's equation over half a turn, found "
         "in two ways, stable between -2 and 2. Then it searches for all symmetric periodic orbits of at most P "

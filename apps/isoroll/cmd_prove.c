@@ -1,18 +1,11 @@
 /* isoroll prove - encloses the splitting of the separatrix: a proof that there is no further integral. */
 #include <string.h>
 
+#include "command.h"
 #include "instrument/prove/prove_impl.h"
 #include "io/output_impl.h"
-#include "scene_options.h"
-#include "shell.h"
 
-/* What prove can be told. */
-typedef struct options {
-    iso_prove_request study;
-    shell_options shell;
-} options;
-
-/* --- words ------------------------------------------------------------------------------------------------------ */
+OPTIONS_OF_SCENE(iso_prove_request);
 
 /* One k: its numbers; an interval: rows of them. */
 static json_t *json(const shell *s)
@@ -20,8 +13,6 @@ static json_t *json(const shell *s)
     const iso_proofs *f = s->result.found;
     return iso_proof_is_thin(&f->row[0].ball) ? json_of(iso_proof_fields, &f->row[0]) : json_of(iso_proofs_fields, f);
 }
-
-/* --- the command ------------------------------------------------------------------------------------------------ */
 
 /* The certificates of all rows, one after the other. */
 static int write_certificates(const shell *s)
@@ -44,19 +35,6 @@ static iso_status check(const shell *s)
     return ISO_FAIL_ARGUMENT(s->ctx, "output", "prove: a certificate needs a file: -o FILE");
 }
 
-static int run(iso_context *ctx, const void *options_given)
-{
-    static const shell_parts parts = {.study = &iso_prove_study,
-                                      .kind = "prove",
-                                      .check = check,
-                                      .stopped = "what was proved so far is kept",
-                                      .json = json,
-                                      .write = write_certificates};
-    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
-}
-
-static const options defaults = {.shell = {.file = "-"}};
-
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_prove_option),
     ROW_OF_FILE("output", "FILE", "a file", "write a certificate to FILE", iso_set_text, options, study.certificate,
@@ -66,8 +44,8 @@ static const option_row rows[] = {
 };
 
 const command command_prove = {
-    COMMAND_OF_STUDY(prove, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(prove),
+    .parts = {.check = check, .stopped = "what was proved so far is kept", .json = json, .write = write_certificates},
     .description =
         "Encloses the slope m that 'isoroll splitting' measures: numbers become intervals, and all rounding errors "
         "stay in them. If 0 is not in the enclosure of m, it is proved that the unstable and the stable manifold of "

@@ -1,13 +1,13 @@
 /* isoroll run - integrate a scene and write its trajectory. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "certified.h"
+#include "command.h"
+#include "instrument/certify/certify_impl.h"
 #include "io/scene_file.h"
-#include "scene_options.h"
 #include "stream.h"
-#include "task/run_impl.h"
+#include "task/run.h"
+#include "task/task_impl.h"
 
 typedef struct options {
     iso_run_request study;
@@ -19,17 +19,11 @@ typedef struct options {
 
 /* --- rows that are computed in doubles -------------------------------------------------------------------------- */
 
-static bool go_on(void *data)
-{
-    (void)data;
-    return !interrupted();
-}
-
 static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene, const iso_record *times)
 {
     stream to = {.ctx = ctx, .output = o->output, .kind = "trajectory"};
     iso_study_result r = {.sink = stream_sink(&to)};
-    iso_context_set_monitor(ctx, go_on, NULL);
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
     const iso_status status =
         iso_study_answer(ctx, &iso_run_study, &(iso_study_subject){.scene = scene, .record = times}, &o->study, &r);
     const iso_run_result *found = r.found;
@@ -50,52 +44,39 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
 
 /* --- certified rows --------------------------------------------------------------------------------------------- */
 
-static void report_certified(const iso_certify_result *r)
-{
-    complain("%zu rows; backend %s: %ld steps with numbers of %d digits, attempt %d", r->rows,
-             iso_backend_name((int)r->backend), r->steps, r->work_digits, r->attempts);
-}
-
 static int certify(iso_context *ctx, const options *o, const iso_scene *scene, const iso_literals *literals)
 {
     enum { DIGITS = 30 };
-    certified_file file = {ctx, o->output, NULL};
-    const iso_certify_sink sink = {certified_line, certified_progress, &file};
+    stream to = {.ctx = ctx, .output = o->output};
+    const iso_certify_sink sink = {stream_line, progress_told, &to};
     const iso_certify_options how = {o->digits ? o->digits : DIGITS, o->work_digits};
     iso_certify_result r;
-    iso_context_set_monitor(ctx, go_on, NULL);
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
     const iso_status status = iso_certify(ctx, scene, literals, &how, &sink, &r);
     const bool ended = status == ISO_STOPPED || status == ISO_NUMERICAL; /* before the last row */
-    if (!file.out) return finish_scene(ctx, o->file, scene, status);
-    const int result = certified_close(&file, status, status == ISO_OK || ended);
-    if (o->study.verbose && result != EXIT_FILE) report_certified(&r);
+    if (!to.out) return finish_scene(ctx, o->file, scene, status);
+    const int result = stream_close(&to, status, status == ISO_OK || ended);
+    if (o->study.verbose && result != EXIT_FILE)
+        complain("%zu rows; backend %s: %ld steps with numbers of %d digits, attempt %d", r.rows,
+                 iso_backend_name((int)r.backend), r.steps, r.work_digits, r.attempts);
     if (ended)
         complain("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "", r.rows, r.asked);
     return result;
 }
 
-/* --- the command ------------------------------------------------------------------------------------------------ */
-
 /* Which options belong together. */
 static iso_status check_certify(iso_context *ctx, const options *o)
 {
-    const certified_option others[] = {{o->times != NULL, "times"},
-                                       {o->study.change.method != NULL, "method"},
-                                       {!isnan(o->study.change.tolerance), "tol"},
-                                       {iso_table_is_hdf5(o->output), "output"},
-                                       {false, NULL}};
-    const certified_option own[] = {{o->digits > 0, "digits"}, {o->work_digits > 0, "work-digits"}, {false, NULL}};
-    if (!o->certify) return certified_refuse(ctx, own, "this is for --certify");
-    return certified_refuse(ctx, others,
-                            "--certify has no use for it: rows at the scene's times, by Taylor series in "
-                            "balls, into a text file");
-}
-
-static iso_status check_files(iso_context *ctx, const options *o)
-{
-    if (o->times && strcmp(o->times, "-") == 0 && strcmp(o->file, "-") == 0)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times", "standard input is the scene or the times, not both");
-    return ISO_OK;
+    const given_option others[] = {{o->times != NULL, "times"},
+                                   {o->study.change.method != NULL, "method"},
+                                   {!isnan(o->study.change.tolerance), "tol"},
+                                   {iso_table_is_hdf5(o->output), "output"},
+                                   {false, NULL}};
+    const given_option own[] = {{o->digits > 0, "digits"}, {o->work_digits > 0, "work-digits"}, {false, NULL}};
+    if (!o->certify) return refuse_given(ctx, own, "this is for --certify");
+    return refuse_given(ctx, others,
+                        "--certify has no use for it: rows at the scene's times, by Taylor series in "
+                        "balls, into a text file");
 }
 
 static int run(iso_context *ctx, const void *options_given)
@@ -104,8 +85,9 @@ static int run(iso_context *ctx, const void *options_given)
     iso_scene scene = {.places = 0};
     iso_literals literals = {.count = 0};
     iso_record *times = NULL;
-    iso_status status = check_files(ctx, o);
-    if (status == ISO_OK) status = check_certify(ctx, o);
+    const bool both = o->times && strcmp(o->times, "-") == 0 && strcmp(o->file, "-") == 0;
+    iso_status status = both ? ISO_FAIL_ARGUMENT(ctx, "times", "standard input is the scene or the times, not both")
+                             : check_certify(ctx, o);
     if (status == ISO_OK) status = iso_scene_read_literals(ctx, o->file, &scene, &literals);
     if (status == ISO_OK) status = iso_scene_apply(ctx, &o->study.change, &scene);
     if (status == ISO_OK && o->times) status = times_read(ctx, o->times, &times);
@@ -136,6 +118,8 @@ static const option_row rows[] = {
 
 const command command_run = {
     COMMAND_OF_STUDY(run, "SCENE", file),
+    .defaults = &defaults,
+    .run = run,
     .takes = FILE_SCENE,
     .description =
         "The times of --t-end, --step and --times are those of the scene's model: t of a ball, s of a point. With "

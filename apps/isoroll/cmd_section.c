@@ -1,17 +1,14 @@
 /* isoroll section - the Poincare section of a scene, by the ball, by the point, or by both. */
-#include <inttypes.h>
-#include <math.h>
 #include <string.h>
 
+#include "command.h"
 #include "instrument/chaos/chaos.h"
 #include "instrument/section/section_impl.h"
 #include "picture/section_impl.h"
 #include "plot/draw.h"
-#include "scene_options.h"
-#include "shell.h"
 #include "stream.h"
 
-/* What section can be told. */
+/* Options of `isoroll section`. */
 typedef struct options {
     iso_section_request study;
     shell_options shell;
@@ -55,8 +52,8 @@ static iso_status write_row(void *data, int table, const double row[], size_t co
 
 /* Finds out which of the orbits are chaotic: the picture draws these in grey. If there are more than MOST_ORBITS, or
  * if this fails, the picture draws those in grey on which the models part. */
-static void judge(iso_context *ctx, const iso_scene *scene, const iso_section_options *how,
-                  const iso_section_result *r, iso_picture_points *picture)
+static void classify_orbits(iso_context *ctx, const iso_scene *scene, const iso_section_options *how,
+                            const iso_section_result *r, iso_picture_points *picture)
 {
     enum { MOST_ORBITS = 3000 };
     iso_chaos *chaos = NULL;
@@ -82,7 +79,7 @@ static int draw(target *t, const options *o, const iso_scene *scene, const iso_s
     char text[PLOT_SECTION_OPTIONS];
     iso_record *over[ISO_PLOT_OVERS + 1];
     iso_picture picture = {.layout = NULL};
-    if (!interrupted()) judge(t->to.ctx, scene, &o->study.how, r, t->picture);
+    if (!interrupted()) classify_orbits(t->to.ctx, scene, &o->study.how, r, t->picture);
     iso_status status = plot_read_over(t->to.ctx, page, over);
     if (status == ISO_OK)
         status = iso_picture_points_make(t->to.ctx, t->picture, (const iso_record *const *)over,
@@ -145,14 +142,11 @@ static iso_status check_area(const shell *s)
 
 static int run(iso_context *ctx, const void *options_given)
 {
-    static const shell_parts areas = {
-        .study = &iso_section_study, .kind = "section area", .check = check_area, .stopped = "orbits are missing"};
+    static const shell_parts areas = {.kind = "section area", .check = check_area, .stopped = "orbits are missing"};
     const options *o = options_given;
     if (!o->study.area) return section(ctx, o);
-    return shell_run(ctx, &areas, o, &o->shell);
+    return shell_run(ctx, &iso_section_study, &areas, o, &o->shell);
 }
-
-static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROW_OUTPUT(options, shell.table),
@@ -164,8 +158,8 @@ static const option_row rows[] = {
 };
 
 const command command_section = {
-    COMMAND_OF_STUDY(section, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(section),
+    .run = run,
     .description =
         "Follows orbits and writes a row for each crossing of the section n_A = 0, n_A increasing. The section is "
         "the same for ball and point. A row has the number of the orbit, the number of the crossing (from 1), t, "

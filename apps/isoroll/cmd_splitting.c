@@ -1,26 +1,12 @@
 /* isoroll splitting - how far the separatrix of the middle axis' rotation splits: why only k = 1 and k = -1. */
 #include <math.h>
 
-#include "base/number_impl.h"
+#include "command.h"
 #include "instrument/separatrix/separatrix_study_impl.h"
 #include "picture/picture_impl.h"
 #include "plot/draw.h"
-#include "scene_options.h"
-#include "shell.h"
 
-/* What splitting can be told. */
-typedef struct options {
-    iso_separatrix_request study;
-    shell_options shell;
-} options;
-
-/* --- the table -------------------------------------------------------------------------------------------------- */
-
-/* What differs from row to row. */
-static double number_of(const iso_separatrix_splitting *s, bool by_level)
-{
-    return by_level ? s->level : s->k;
-}
+OPTIONS_OF_SCENE(iso_separatrix_request);
 
 static json_t *json(const shell *s)
 {
@@ -30,8 +16,6 @@ static json_t *json(const shell *s)
     json_add(o, s->result.fields, s->result.found);
     return o;
 }
-
-/* --- the picture ------------------------------------------------------------------------------------------------ */
 
 /* |m| over k or the level, where there are several rows, and both curves of one of them. */
 static int draw(const shell *s)
@@ -45,31 +29,17 @@ static int draw(const shell *s)
     iso_status status =
         iso_picture_separatrix(s->ctx, at->k, s->scene.params.J, at->level, at->section_m, at->lambda, &curve);
     snprintf(at_number, sizeof at_number, "%s = %s", by_level ? "level" : "k",
-             iso_fraction_text(number, number_of(at, by_level)));
+             iso_fraction_text(number, by_level ? at->level : at->k));
     if (status == ISO_OK) {
         iso_record_set_kind(curve, "separatrix");
         status = iso_record_set(s->ctx, curve, "at", at_number);
     }
     if (status == ISO_OK) status = iso_record_set_numbers(s->ctx, curve, "axis", 1, (double[]){at->section + 1});
     if (status == ISO_OK)
-        status = plot_tables(s->ctx, &s->told->plot, (const iso_record *[]){s->result.table[0], curve, NULL}, NULL);
+        status = plot_tables(s->ctx, &s->common->plot, (const iso_record *[]){s->result.table[0], curve, NULL}, NULL);
     iso_record_free(curve);
     return finish(s->ctx, status);
 }
-
-/* --- the command ------------------------------------------------------------------------------------------------ */
-
-static int run(iso_context *ctx, const void *options_given)
-{
-    static const shell_parts parts = {.study = &iso_splitting_study,
-                                      .kind = "splitting",
-                                      .stopped = "only rows that are done are shown",
-                                      .json = json,
-                                      .draw = draw};
-    return shell_run(ctx, &parts, options_given, &((const options *)options_given)->shell);
-}
-
-static const options defaults = {.shell = {.file = "-"}};
 
 static const option_row rows[] = {
     ROWS_OF_STUDY(iso_splitting_option),
@@ -80,8 +50,8 @@ static const option_row rows[] = {
 };
 
 const command command_splitting = {
-    COMMAND_OF_STUDY(splitting, "SCENE", shell.file),
-    .takes = FILE_SCENE,
+    COMMAND_OF_SCENE(splitting),
+    .parts = {.kind = "splitting", .stopped = "only rows that are done are shown", .json = json, .draw = draw},
     .description =
         "The rotation about the middle axis is unstable. On the section n_a = 0, a the axis after the middle one, "
         "it is a point (l, x); l and x are those of isoroll section. One curve leaves it: the orbits that come "

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "scene_options.h"
+#include "command.h"
 #include "sweep/sweep_store_impl.h"
 #include "sweep_team.h"
 

@@ -1,11 +1,9 @@
 /* isoroll view - a page that opens from disk: the ball and its point move side by side. */
 #include <errno.h>
 #include <fcntl.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "scene_options.h"
 #include "view/view.h"
 
 typedef struct options {

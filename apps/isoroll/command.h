@@ -8,13 +8,14 @@
 #include "options.h"
 #include "progress.h"
 #include "report.h"
+#include "shell.h"
 
 typedef struct command {
     const char *name;
     const char *argument;       /* "SCENE", "[FILE]", "[TOPIC]": in brackets it may be left out, and is then "-" */
     const char *doc;            /* one line; NULL: the study's                                          */
     const option_row *rows;     /* of its options                                                       */
-    const void *defaults;       /* a value of its struct of options                                     */
+    const void *defaults;       /* a value of its struct of options; NULL: zeros                        */
     size_t size;                /* of that struct                                                       */
     size_t file;                /* offset of the argument in it, a const char *                         */
     unsigned takes;             /* kinds of file that the argument can be (file_kind.h); 0: not looked at */
@@ -24,18 +25,29 @@ typedef struct command {
     const char *description;    /* paragraphs with an empty line between; lines are folded          */
     const char *example;        /* lines as they are typed                                          */
     const char *exits;          /* lines about exit statuses that need words; NULL: the usual ones  */
-    int (*run)(iso_context *ctx, const void *options); /* gives the exit status                     */
+    int (*run)(iso_context *ctx, const void *options); /* returns the exit status; NULL: ...            */
+    shell_parts parts; /* ... shell_run, with these; its shell_options begin with the argument          */
 } command;
 
 /* What the row of every command begins with: name, argument and doc as above, and where the argument stands in its
- * `options`. Its file has `rows`, `defaults` and `run`. */
+ * `options`. Its file has `rows`. */
+#define COMMAND_OF_ZEROS(name_, argument_, doc_, file_)                                                              \
+    .name = name_, .argument = argument_, .doc = doc_, .rows = rows, .size = sizeof(options),                        \
+    .file = offsetof(options, file_)
 #define COMMAND(name_, argument_, doc_, file_)                                                                       \
-    .name = name_, .argument = argument_, .doc = doc_, .rows = rows, .defaults = &defaults, .size = sizeof defaults, \
-    .file = offsetof(options, file_), .run = run
+    COMMAND_OF_ZEROS(name_, argument_, doc_, file_), .defaults = &defaults, .run = run
 
 /* The same for a study, whose name and doc it has. */
 #define COMMAND_OF_STUDY(study_, argument_, file_)                                                                   \
-    COMMAND(#study_, argument_, NULL, file_), .study = &iso_##study_##_study
+    COMMAND_OF_ZEROS(#study_, argument_, NULL, file_), .study = &iso_##study_##_study
+
+/* A study of a scene, and the struct of options of its command. */
+#define COMMAND_OF_SCENE(study_) COMMAND_OF_STUDY(study_, "SCENE", shell.file), .takes = FILE_SCENE
+#define OPTIONS_OF_SCENE(request)                                                                                    \
+    typedef struct options {                                                                                         \
+        request study;                                                                                               \
+        shell_options shell;                                                                                         \
+    } options
 
 /* What it does, in one line. */
 const char *command_doc(const command *c);
@@ -81,10 +93,10 @@ void complete_line(int count, char *word[]);
 /* Sets up the process: streams, signals, the libraries. Call it first. */
 void program_begin(void);
 
-/* Reads the options and runs the command; argv[0] is its name. Gives the exit status. */
+/* Reads the options and runs the command; argv[0] is its name. Returns the exit status. */
 int program_run(const command *c, int argc, char **argv);
 
-/* Writes what was printed. Gives the exit status: another one if that fails. */
+/* Writes what was printed. Returns the exit status: another one if that fails. */
 int program_flush(int status);
 
 void program_version(void);

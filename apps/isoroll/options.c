@@ -2,7 +2,6 @@
 #include "options.h"
 
 #include <getopt.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -24,7 +23,7 @@ bool set_digits(void *at, const char *text)
 
 /* --- the command line ------------------------------------------------------------------------------------------- */
 
-/* What is longer ends in " ...". */
+/* A longer line is cut and ends in " ...". */
 static char command_line[4096];
 
 const char *options_command(void)
@@ -94,7 +93,7 @@ static options_result wrong(const command *c, const char *what, const char *whic
     return OPTIONS_WRONG;
 }
 
-/* Into `list`, the options that begin with `name`. Gives how many there are. */
+/* Writes the options that begin with `name` into `list`; returns their number. */
 static int begin_with(const command *c, const char *name, size_t length, char list[200])
 {
     int count = 0;
@@ -125,13 +124,6 @@ static options_result wrong_long(const command *c, const char *text)
     return complain("%s: unknown option %s; did you mean '--%s'?", c->name, text, near), OPTIONS_WRONG;
 }
 
-/* What getopt_long did not know: a letter, which it tells, or a long option. */
-static options_result unknown(const command *c, char **argv)
-{
-    const char letter[] = {'-', (char)optopt, '\0'};
-    return optopt > 0 && optopt < LONG ? wrong(c, "unknown option ", letter) : wrong_long(c, argv[optind - 1]);
-}
-
 /* The row of what getopt_long found: LONG + its index, or its letter. */
 static const option_row *found_row(const command *c, int found)
 {
@@ -141,19 +133,15 @@ static const option_row *found_row(const command *c, int found)
     return options_row(c, i);
 }
 
-static int argument_of(const option_row *r)
-{
-    return !r->argument ? no_argument : r->argument[0] == '[' ? optional_argument : required_argument;
-}
-
-/* What getopt_long needs to know: the long names, and the letters after the colon that makes it silent. --csv is a
+/* What getopt_long is given: the long names, and the letters after the colon that makes it silent. --csv is a
  * second name of --output. */
 static void make_known(const command *c, struct option known[MOST_ROWS + 2], char letters[2 * MOST_ROWS])
 {
     *letters++ = ':';
     for (int i = 0; i < MOST_ROWS && options_row(c, i); i++) {
         const option_row *r = options_row(c, i);
-        *known++ = (struct option){r->name, argument_of(r), NULL, LONG + i};
+        const int takes = !r->argument ? no_argument : r->argument[0] == '[' ? optional_argument : required_argument;
+        *known++ = (struct option){r->name, takes, NULL, LONG + i};
         if (strcmp(r->name, "output") == 0) *known++ = (struct option){"csv", required_argument, NULL, LONG + i};
         if (r->letter) *letters++ = r->letter;
         if (r->letter && r->argument) *letters++ = ':';
@@ -169,6 +157,12 @@ static options_result set_file(const command *c, int argc, char **argv, bool hel
     if (argc == optind && !optional && !help) return wrong(c, "missing argument ", c->argument);
     *(const char **)(void *)(options + c->file) = argc > optind ? argv[optind] : "-";
     return help ? OPTIONS_HELP : OPTIONS_DONE;
+}
+
+iso_status refuse_given(iso_context *ctx, const given_option list[], const char *why)
+{
+    while (list->name && !list->given) list++;
+    return list->name ? ISO_FAIL_ARGUMENT(ctx, list->name, "--%s: %s", list->name, why) : ISO_OK;
 }
 
 /* --- files ------------------------------------------------------------------------------------------------------ */
@@ -256,7 +250,9 @@ options_result options_read(const command *c, int argc, char **argv, void *optio
     add(c->name);
     for (int found; (found = getopt_long(argc, argv, letters, known, NULL)) != -1;) {
         if (found == ':') return wrong(c, "an argument is missing after ", argv[optind - 1]);
-        if (found == '?') return unknown(c, argv);
+        if (found == '?' && optopt > 0 && optopt < LONG)
+            return wrong(c, "unknown option ", (char[]){'-', (char)optopt, '\0'});
+        if (found == '?') return wrong_long(c, argv[optind - 1]);
         const option_row *r = found_row(c, found);
         if (r == &help_row)
             help = true;

@@ -1,8 +1,8 @@
 /* options.h - how a command states its options, and how they are read.
  *
  * Each command has
- *     a struct of its own, with a field for each thing that it can be told;
- *     a value of this struct, with what holds when the user says nothing;
+ *     a struct of its own, with a field for each of its options;
+ *     a value of this struct, the defaults (zeros, if there is none);
  *     a table of rows, one row for each option: how it is called, how it is read, and where in the struct it goes.
  * A row that several commands have is written once, here or in the header of the options it belongs to, as a macro.
  * The help, the man pages and the completions are all made from the rows.
@@ -44,6 +44,15 @@ const option_row *options_row(const struct command *c, int i);
 
 /* Setters, beside those of studies (study/options_impl.h). */
 bool set_digits(void *at, const char *text); /* int, 1 to 17, or ISO_HEXADECIMAL */
+
+/* An option, and whether it was given. */
+typedef struct given_option {
+    bool given;
+    const char *name;
+} given_option;
+
+/* Refuses the first one that was given, in a list that ends with a name NULL; why: a text. */
+iso_status refuse_given(iso_context *ctx, const given_option list[], const char *why);
 
 /* Whether `path` names a regular file. Of a pipe nothing may be read to see what it is: it can be read only once. */
 bool is_regular(const char *path);

@@ -32,18 +32,20 @@ void program_version(void)
 static int run_with(iso_context *ctx, void *options, const command *c, int argc, char **argv)
 {
     if (!ctx || !options) return complain("out of memory"), EXIT_NUMERICAL;
-    memcpy(options, c->defaults, c->size);
+    if (c->defaults) memcpy(options, c->defaults, c->size);
     if (c->study) c->study->begin(options);
     switch (options_read(c, argc, argv, options)) {
     case OPTIONS_WRONG: return EXIT_USAGE;
     case OPTIONS_HELP: help_command(c, stdout); return EXIT_DONE;
     case OPTIONS_DONE: break;
     }
-    if (!c->files && !file_fits(c, *(const char *const *)(const void *)((const char *)options + c->file)))
-        return EXIT_BAD_INPUT;
+    const void *argument = (const char *)options + c->file;
+    if (!c->files && !file_fits(c, *(const char *const *)argument)) return EXIT_BAD_INPUT;
     if (!c->study) return c->run(ctx, options);
     const iso_status status = c->study->prepare ? c->study->prepare(ctx, options) : ISO_OK;
-    const int result = status == ISO_OK ? c->run(ctx, options) : finish(ctx, status);
+    const int result = status != ISO_OK ? finish(ctx, status)
+                       : c->run         ? c->run(ctx, options)
+                                        : shell_run(ctx, c->study, &c->parts, options, argument);
     if (c->study->end) c->study->end(options);
     return result;
 }
@@ -51,7 +53,7 @@ static int run_with(iso_context *ctx, void *options, const command *c, int argc,
 int program_run(const command *c, int argc, char **argv)
 {
     iso_context *ctx = iso_context_create();
-    void *options = malloc(c->size);
+    void *options = calloc(1, c->size);
     const int status = run_with(ctx, options, c, argc, argv);
     progress_end();
     free(options);

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "io/output_impl.h"
+#include "io/text_impl.h"
 #include "progress.h"
 #include "terminal.h"
 
@@ -65,7 +66,7 @@ bool interrupted(void)
     return stop_asked != 0;
 }
 
-static bool not_interrupted(void *unused)
+bool not_interrupted(void *unused)
 {
     (void)unused;
     return !interrupted();
@@ -144,4 +145,9 @@ int finish(iso_context *ctx, iso_status status)
     const bool silent = status == ISO_OK || status == ISO_STOPPED || status == ISO_CLOSED_PIPE;
     if (!silent) complain("%s", iso_context_message(ctx));
     return exits[status];
+}
+
+int finish_scene(iso_context *ctx, const char *file, const iso_scene *scene, iso_status status)
+{
+    return finish(ctx, iso_scene_blame(ctx, scene, iso_text_name(file), status));
 }

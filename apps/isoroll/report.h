@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-#include "io/table_impl.h"
 #include "api/typed_impl.h"
+#include "io/table_impl.h"
 #include "orbit/orbit_impl.h"
 
 enum exit_status {
@@ -31,6 +31,10 @@ const char *complaint(void);
  * after a stop on request, and when the reader of a pipe has gone. */
 int finish(iso_context *ctx, iso_status status);
 
+/* As finish(), after a failure with the scene: says where in its file the cause stands, unless an option put it
+ * there. */
+int finish_scene(iso_context *ctx, const char *file, const iso_scene *scene, iso_status status);
+
 /* The worse of two exit statuses. */
 int worse(int a, int b);
 
@@ -46,6 +50,7 @@ bool limit_is_near(void);
 
 /* True once the user has asked to stop. */
 bool interrupted(void);
+bool not_interrupted(void *unused); /* a monitor of a context */
 
 /* Long work begins: stop_gently, and the library asks interrupted(); a bar shows the progress. rows: where the work
  * writes rows, as for progress_begin_rows; NULL: nowhere yet. */

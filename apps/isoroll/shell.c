@@ -4,101 +4,92 @@
 #include <string.h>
 
 #include "base/record_impl.h"
-#include "scene_options.h"
+#include "command.h"
 #include "terminal.h"
 
-/* --- before ----------------------------------------------------------------------------------------------------- */
-
-static void tell_note(void *data, const char *words)
+static void show_note(void *data, const char *text)
 {
     (void)data;
-    complain("%s", words);
-}
-
-/* Refuses `-o -` beside --json: both write to standard output. */
-static iso_status check_json_alone(const shell *s, const shell_parts *parts)
-{
-    const char *table = s->told->table;
-    if (!s->told->json || !table || strcmp(table, "-") != 0) return ISO_OK;
-    return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "output",
-                            "%s: -o - and --json both write to standard output: choose one", parts->study->name);
+    complain("%s", text);
 }
 
 iso_status shell_change(shell *s)
 {
-    const iso_scene_changes *change = s->options;
-    return iso_scene_apply(s->ctx, change, &s->scene);
+    return iso_scene_apply(s->ctx, s->options, &s->scene);
+}
+
+/* Whether the table goes to standard output. */
+static bool prints_table(const shell *s)
+{
+    return s->common->table && strcmp(s->common->table, "-") == 0;
 }
 
 /* Reads the scene and opens the file. Refuses wrong options before the work begins. */
 static iso_status prepare(shell *s, const shell_parts *parts, iso_table_writer **writer)
 {
-    const shell_options *o = s->told;
-    iso_status status = parts->check ? parts->check(s) : check_json_alone(s, parts);
-    if (status == ISO_OK) status = iso_plot_check_page(s->ctx, &o->plot);
-    if (status == ISO_OK) status = iso_scene_load(s->ctx, o->file, &s->scene);
-    if (status == ISO_OK && parts->change) status = parts->change(s);
-    return status == ISO_OK && o->table ? iso_table_writer_open(s->ctx, o->table, parts->kind, writer) : status;
-}
-
-/* --- after ------------------------------------------------------------------------------------------------------ */
-
-/* The file's table says of what it is, not all that was found: the scene's numbers, the version of isoroll, and what
- * the study says (iso_study_describe). */
-static iso_status describe(shell *s, const shell_parts *parts)
-{
-    iso_record *table = s->result.table[0];
-    iso_record_forget_lines(table);
-    const iso_status status = iso_record_describe_scene(s->ctx, table, &s->scene);
-    return status == ISO_OK ? iso_study_describe(s->ctx, parts->study, &s->subject, s->options, &s->result) : status;
+    const shell_options *o = s->common;
+    if (parts->check)
+        ISO_TRY(parts->check(s));
+    else if (o->json && prints_table(s))
+        return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "output",
+                                "%s: -o - and --json both write to standard output: choose one", s->study->name);
+    ISO_TRY(iso_plot_check_page(s->ctx, &o->plot));
+    ISO_TRY(iso_scene_load(s->ctx, o->file, &s->scene));
+    if (parts->change) ISO_TRY(parts->change(s));
+    return o->table ? iso_table_writer_open(s->ctx, o->table, parts->kind, writer) : ISO_OK;
 }
 
 int shell_draw(const shell *s, const iso_record *table)
 {
-    return finish(s->ctx, plot_table(s->ctx, &s->told->plot, table));
+    return finish(s->ctx, plot_table(s->ctx, &s->common->plot, table));
 }
 
 /* Prints text or JSON, unless the table goes to standard output. */
 static int print(const shell *s, const shell_parts *parts)
 {
     const iso_study_result *r = &s->result;
-    if (s->told->json) {
+    if (s->common->json) {
         json_t *o = parts->json ? parts->json(s) : json_of_scene(&s->scene, r->fields, r->found);
         return json_print(o) ? EXIT_DONE : EXIT_NUMERICAL;
     }
-    if (r->text && !(s->told->table && strcmp(s->told->table, "-") == 0))
-        iso_fold(stdout, r->text, terminal_width(stdout));
+    if (r->text && !prints_table(s)) iso_fold(stdout, r->text, terminal_width(stdout));
     return EXIT_DONE;
 }
 
-/* Without a row there is no file. */
+/* Writes and draws the table. In a file it says what it is of, not all that was found: the scene's numbers, the version
+ * of isoroll, and what the study says (iso_study_describe). */
 static int save(shell *s, const shell_parts *parts, iso_table_writer *writer)
 {
-    iso_status status = describe(s, parts);
+    iso_record *table = s->result.table[0];
+    iso_record_forget_lines(table);
+    iso_status status = iso_record_describe_scene(s->ctx, table, &s->scene);
+    if (status == ISO_OK) status = iso_study_describe(s->ctx, s->study, &s->subject, s->options, &s->result);
     const bool made = status == ISO_OK;
     if (writer && made)
-        status = iso_table_write_all(s->ctx, writer, s->result.table[0]);
+        status = iso_table_write_all(s->ctx, writer, table);
     else if (writer)
         iso_table_writer_close(s->ctx, writer, false);
     const int result = finish(s->ctx, status);
-    if (!s->told->plot.path || !made) return result;
-    return worse(result, parts->draw ? parts->draw(s) : shell_draw(s, s->result.table[0]));
+    if (!s->common->plot.path || !made) return result;
+    return worse(result, parts->draw ? parts->draw(s) : shell_draw(s, table));
 }
 
-int shell_run(iso_context *ctx, const shell_parts *parts, const void *options, const shell_options *told)
+int shell_run(iso_context *ctx, const iso_study *study, const shell_parts *parts, const void *options,
+              const shell_options *common)
 {
     shell s = {.ctx = ctx,
+               .study = study,
                .options = options,
-               .told = told,
-               .result = {.sink = {.note = tell_note, .progress = progress_told}}};
+               .common = common,
+               .result = {.sink = {.note = show_note, .progress = progress_told}}};
     iso_table_writer *writer = NULL;
     iso_status status = prepare(&s, parts, &writer);
-    if (status != ISO_OK) return finish_scene(ctx, told->file, &s.scene, status);
+    if (status != ISO_OK) return finish_scene(ctx, common->file, &s.scene, status);
     begin_work(ctx, NULL);
     s.subject = (iso_study_subject){.scene = &s.scene, .command = options_command()};
-    status = iso_study_answer(ctx, parts->study, &s.subject, options, &s.result);
+    status = iso_study_answer(ctx, study, &s.subject, options, &s.result);
     progress_end();
-    int result = finish_scene(ctx, told->file, &s.scene, status);
+    int result = finish_scene(ctx, common->file, &s.scene, status);
     if (status == ISO_STOPPED && parts->stopped) complain("interrupted: %s", parts->stopped);
     if (status == ISO_STOPPED && parts->interrupted) parts->interrupted(&s);
     if (!s.result.table[0]) {

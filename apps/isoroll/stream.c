@@ -16,13 +16,18 @@ iso_status stream_next(iso_context *ctx, void *reader, iso_source_row *row)
     return status;
 }
 
+static void begin(stream *s)
+{
+    s->opened = true;
+    stop_gently();
+    progress_begin_rows(s->output);
+}
+
 iso_status stream_header(void *data, int table, const iso_record *header)
 {
     stream *s = data;
     if (table > 0) return ISO_OK;
-    s->opened = true;
-    stop_gently();
-    progress_begin_rows(s->output);
+    begin(s);
     ISO_TRY(iso_table_writer_open(s->ctx, s->output, s->kind, &s->writer));
     if (s->digits) iso_table_set_digits(s->writer, *s->digits);
     return iso_table_write_header(s->ctx, s->writer, header);
@@ -33,6 +38,17 @@ iso_status stream_row(void *data, int table, const double row[], size_t count)
     const stream *s = data;
     (void)count;
     return table > 0 ? ISO_OK : iso_table_write_row(s->ctx, s->writer, row);
+}
+
+iso_status stream_line(void *data, const char *text)
+{
+    stream *s = data;
+    if (!s->opened) {
+        begin(s);
+        ISO_TRY(iso_output_open(s->ctx, s->output, &s->out));
+    }
+    fputs(text, iso_output_stream(s->out));
+    return iso_output_check(s->ctx, s->out);
 }
 
 static void show_note(void *data, const char *text)
@@ -48,7 +64,8 @@ iso_sink stream_sink(stream *s)
 int stream_close(stream *s, iso_status status, bool keep)
 {
     const int result = finish(s->ctx, status);
-    if (!s->writer) return result;
-    const iso_status closed = iso_table_writer_close(s->ctx, s->writer, keep);
+    if (!s->writer && !s->out) return result;
+    const iso_status closed =
+        s->writer ? iso_table_writer_close(s->ctx, s->writer, keep) : iso_output_close(s->ctx, s->out, keep);
     return closed != ISO_OK && result == EXIT_DONE ? finish(s->ctx, closed) : result;
 }

@@ -1,7 +1,8 @@
-/* Reads output times: numbers between blanks, commas, new lines and comments. */
+/* times.c - reads output times (stream.h): numbers between blanks, commas, new lines and comments. */
 #include "base/number_impl.h"
 #include "io/output_impl.h"
-#include "scene_options.h"
+#include "io/text_impl.h"
+#include "stream.h"
 
 #include <string.h>
 

@@ -10,7 +10,6 @@
 #include "study/study.h"
 #include "sweep/sweep_store_impl.h"
 #include "task/list/list_impl.h"
-#include "task/list/tables.h"
 
 /* --- asking ----------------------------------------------------------------------------------------------------- */
 

@@ -186,7 +186,7 @@ static iso_status add_drifts(iso_context *ctx, iso_picture *picture, const parts
     iso_record **drifts = iso_picture_aside(picture);
     char names[200] = "";
     double largest = 0, range[2];
-    ISO_TRY(iso_check_drifts(ctx, &p->params, p->file, drifts));
+    ISO_TRY(iso_check_drifts(ctx, &p->params, p->file, -1, drifts));
     for (int c = 1, used = 0; c < (int)iso_record_columns(*drifts); c++) {
         iso_picture_range(*drifts, c, range);
         largest = fmax(largest, range[1]);

@@ -4,6 +4,8 @@
 #include "orbit/description.h"
 #include "orbit/orbit_impl.h"
 
+#include <string.h>
+
 /* Makes what an option says a line of the record. If the file has that line already, it must say the same. */
 static iso_status set_line(iso_context *ctx, iso_record *record, const char *key, size_t count, const double values[])
 {
@@ -50,4 +52,14 @@ iso_status iso_added_params(iso_context *ctx, const iso_added *o, const iso_scen
     if (status == ISO_OK) status = set_line(ctx, record, "h", 1, &o->h);
     if (status == ISO_OK) status = set_line(ctx, record, "eps", 1, &o->eps);
     return status == ISO_OK ? iso_record_params(ctx, record, params) : status;
+}
+
+double iso_stated_energy(iso_context *ctx, const iso_record *record, const iso_units *units, const char *key,
+                         iso_status *status)
+{
+    double x;
+    const bool eps = strcmp(key, "eps") == 0;
+    if (!iso_record_get_numbers(ctx, record, key, 1, &x, status)) return NAN;
+    x /= iso_unit(units, eps ? iso_dimension_eps : iso_dimension_h);
+    return eps ? iso_energy(&units->own, x) : x;
 }

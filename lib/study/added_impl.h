@@ -37,4 +37,9 @@ typedef struct iso_added {
 iso_status iso_added_params(iso_context *ctx, const iso_added *added, const iso_scene *scene, iso_record *record,
                             iso_params *params);
 
+/* The energy h in own units that the line "h" states, or "eps" by its coupling. NAN: there is no such line, or *status
+ * is an error. */
+double iso_stated_energy(iso_context *ctx, const iso_record *record, const iso_units *units, const char *key,
+                         iso_status *status);
+
 #endif

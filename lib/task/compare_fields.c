@@ -1,6 +1,5 @@
 /* compare_fields.c - what a comparison holds: its numbers with their meaning (compare.h). */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "method/methods_impl.h"

@@ -112,7 +112,7 @@ static iso_status describe(const runner *r, iso_record **header)
     return iso_record_set(r->ctx, *header, "isoroll", ISO_VERSION);
 }
 
-static iso_status give_header(const runner *r)
+static iso_status write_header(const runner *r)
 {
     iso_record *header = NULL;
     iso_status status = describe(r, &header);
@@ -136,13 +136,6 @@ static iso_status sort_times(runner *r)
     r->found = calloc(count, sizeof *r->found);
     if (!r->order || !r->waiting || !r->found) return iso_context_no_memory(r->ctx, "the rows of %zu times", count);
     return ISO_OK;
-}
-
-/* The i-th in the order of the work. */
-static iso_asked_time time_at(const runner *r, size_t i)
-{
-    if (r->order) return r->order[i];
-    return (iso_asked_time){r->options.times ? r->options.times[i] : iso_scene_time(r->scene, i), i};
 }
 
 static iso_status check_times(runner *r)
@@ -199,15 +192,6 @@ static iso_status look_at_contact(runner *r)
     return ISO_OK;
 }
 
-static void say_lost(runner *r, int side, double time)
-{
-    char words[128];
-    r->result->lost_at[side] = time;
-    snprintf(words, sizeof words, "contact is lost at %s = %s: there is a row there, and none beyond",
-             iso_clock_name(r->how.clock), ISO_SHORT(time));
-    note(r, words);
-}
-
 /* The orbit at `time`. If `auto` has taken another model than the start's, the row of the start has the numbers
  * given, not those that went to the other model and back. */
 static iso_status follow_to(runner *r, double time, iso_sample *sample)
@@ -223,6 +207,7 @@ static iso_status follow_to(runner *r, double time, iso_sample *sample)
  * beyond that moment *row is false: they have no sample. */
 static iso_status find_sample(runner *r, double time, iso_sample *sample, bool *row)
 {
+    char text[128];
     const int side = time < 0;
     bool *lost = &r->result->lost[side];
     *row = true;
@@ -232,7 +217,10 @@ static iso_status find_sample(runner *r, double time, iso_sample *sample, bool *
     ISO_TRY(iso_orbit_lost_contact(r->orbit, r->safe_to[side], time, lost, sample));
     r->safe_to[side] = *lost ? sample->clock[r->how.clock] : time;
     if (!*lost) return iso_orbit_at(r->orbit, time, sample);
-    say_lost(r, side, r->safe_to[side]);
+    r->result->lost_at[side] = r->safe_to[side];
+    snprintf(text, sizeof text, "contact is lost at %s = %s: there is a row there, and none beyond",
+             iso_clock_name(r->how.clock), ISO_SHORT(r->safe_to[side]));
+    note(r, text);
     return ISO_OK;
 }
 
@@ -247,14 +235,6 @@ static void end_errors(runner *r, iso_status status, const char *words)
     snprintf(r->result->error_words, sizeof r->result->error_words, "%s", words);
 }
 
-static void open_errors(runner *r)
-{
-    const iso_scene *s = r->scene;
-    if (!r->options.errors) return;
-    const iso_status status = iso_error_finder_create(r->ctx, &s->params, &s->start, &r->how, r->orbit, &r->errors);
-    if (status != ISO_OK) end_errors(r, status, iso_context_message(r->ctx));
-}
-
 /* Before a row is given away its error is found; only a stop keeps it back. */
 static iso_status add_error(runner *r, const iso_sample *sample)
 {
@@ -264,17 +244,9 @@ static iso_status add_error(runner *r, const iso_sample *sample)
     return ISO_OK;
 }
 
-static void close_errors(runner *r)
-{
-    if (!r->errors) return;
-    r->result->error = iso_error_finder_read(r->errors);
-    end_errors(r, ISO_OK, "");
-    if (r->result->error.rows == 0) end_errors(r, ISO_BAD_ARGUMENT, "there is no row");
-}
-
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-static iso_status give_row(runner *r, const double row[])
+static iso_status write_row(runner *r, const double row[])
 {
     iso_status status = r->rows ? iso_record_add(r->ctx, *r->rows, 1, row) : ISO_OK;
     if (status == ISO_OK && r->sink->row) status = r->sink->row(r->sink->data, 0, row, (size_t)r->count);
@@ -292,25 +264,21 @@ static iso_status work_on(runner *r, iso_asked_time asked)
     if (status == ISO_OK && there) status = add_error(r, &sample);
     if (status != ISO_OK || !there) return status;
     for (int c = 0; c < r->count; c++) row[c] = iso_sample_column(&sample, r->columns[c]);
-    if (!r->order) return give_row(r, row);
+    if (!r->order) return write_row(r, row);
     r->found[asked.row] = true;
-    return ISO_OK;
-}
-
-/* The rows that have waited, in the order asked for; after a failure, too. */
-static iso_status give_waiting(runner *r)
-{
-    for (size_t i = 0; r->found && i < r->options.count; i++)
-        if (r->found[i]) ISO_TRY(give_row(r, r->waiting + i * (size_t)r->count));
     return ISO_OK;
 }
 
 static iso_status work(runner *r)
 {
     iso_status status = look_at_contact(r);
-    for (size_t i = 0; status == ISO_OK && i < r->result->asked; i++) status = work_on(r, time_at(r, i));
-    const iso_status given = give_waiting(r);
-    return given == ISO_OK ? status : given;
+    for (size_t i = 0; status == ISO_OK && i < r->result->asked; i++)
+        status = work_on(r, r->order           ? r->order[i]
+                            : r->options.times ? (iso_asked_time){r->options.times[i], i}
+                                               : (iso_asked_time){iso_scene_time(r->scene, i), i});
+    for (size_t i = 0; r->found && i < r->options.count; i++) /* in the order asked for; after a failure, too */
+        if (r->found[i]) ISO_TRY(write_row(r, r->waiting + i * (size_t)r->count));
+    return status;
 }
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
@@ -350,7 +318,11 @@ static iso_status open_orbit(runner *r)
 static void close_run(runner *r)
 {
     if (r->orbit) r->result->statistics = iso_orbit_statistics(r->orbit);
-    close_errors(r);
+    if (r->errors) {
+        r->result->error = iso_error_finder_read(r->errors);
+        const bool any = r->result->error.rows > 0;
+        end_errors(r, any ? ISO_OK : ISO_BAD_ARGUMENT, any ? "" : "there is no row");
+    }
     iso_orbit_free(r->orbit);
     free(r->order);
     free(r->waiting);
@@ -370,8 +342,12 @@ iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_optio
     iso_status status = check(&r);
     if (status == ISO_OK) status = sort_times(&r);
     if (status == ISO_OK) status = open_orbit(&r);
-    if (status == ISO_OK) open_errors(&r);
-    if (status == ISO_OK) status = give_header(&r);
+    if (status == ISO_OK && r.options.errors) {
+        const iso_status errors =
+            iso_error_finder_create(ctx, &scene->params, &scene->start, &r.how, r.orbit, &r.errors);
+        if (errors != ISO_OK) end_errors(&r, errors, iso_context_message(ctx));
+    }
+    if (status == ISO_OK) status = write_header(&r);
     iso_context_set_monitor(ctx, monitor, &r);
     if (status == ISO_OK) status = work(&r);
     iso_context_set_monitor(ctx, r.monitor.go_on, r.monitor.data);

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/number_impl.h"
 #include "method/methods_impl.h"
-#include "task/run_impl.h"
+#include "task/run.h"
+#include "task/task_impl.h"
 
 ISO_STUDY_BEGIN(iso_run_request, (iso_run_request){.change = ISO_SCENE_AS_IT_IS})
 

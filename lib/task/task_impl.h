@@ -38,13 +38,19 @@ bool iso_times_in_order(const double times[], size_t count);
 /* The times in the order of the work, for the caller to free; count is above 0. NULL: no memory. */
 iso_asked_time *iso_times_sorted(const double times[], size_t count);
 
+/* Options of the study run: the times of the rows are the scene's own, or those of a record of one column. */
+typedef struct iso_run_request {
+    iso_scene_changes change;
+    bool verbose; /* find the errors of the rows, too, and print them */
+} iso_run_request;
+
 /* What the options of compare hold. */
 typedef struct iso_compare_request {
     iso_scene_changes change;
     double rows; /* of states that are printed */
 } iso_compare_request;
 
-/* --- comparisons, as text (compare_words.c) --------------------------------------------------------------------- */
+/* --- comparisons, as text (compare_print.c) --------------------------------------------------------------------- */
 
 enum { ISO_COMPARISON_WORDS = 512 };
 

@@ -140,7 +140,7 @@ static void hold_drifts(const iso_record *record, const char *file)
     iso_status status = iso_record_params(ctx, record, &params);
     for (int m = 0; m < 2 && status == ISO_OK; m++) {
         if (iso_record_find(record, first[m]) < 0) continue;
-        status = iso_check_drifts_of(ctx, &params, record, (iso_model_kind)m, &drifts);
+        status = iso_check_drifts(ctx, &params, record, m, &drifts);
         gsl_test(status != ISO_OK, "%s: has drifts: %s", file, iso_context_message(ctx));
         for (size_t c = 1; status == ISO_OK && c < iso_record_columns(drifts); c++) {
             double largest = 0, worst = 0;

@@ -163,7 +163,7 @@ static void check_choice(const iso_cost *c)
     int wrong = 0;
     double before = 0;
     for (double want = 1e-1; want > 1e-17; want /= 10) {
-        const iso_cost_cell *best = iso_cost_choose(c, want);
+        const iso_cost_cell *best = iso_cost_choose(c, false, NULL, want);
         for (int i = 0; i < c->cells; i++) {
             const iso_cost_cell *x = &c->cell[i];
             const bool may = cost_is_measured(x) && x->error <= want && (!x->below || c->uncertainty <= want);
@@ -175,8 +175,8 @@ static void check_choice(const iso_cost *c)
         before = best->total;
     }
     gsl_test(wrong, "the choice is the cheapest that is exact enough");
-    gsl_test(iso_cost_choose(c, 0) != NULL, "nothing is exact");
-    gsl_test(iso_cost_choose(c, 1e-9) == NULL, "something reaches 1e-9");
+    gsl_test(iso_cost_choose(c, false, NULL, 0) != NULL, "nothing is exact");
+    gsl_test(iso_cost_choose(c, false, NULL, 1e-9) == NULL, "something reaches 1e-9");
 }
 
 static void check_plane(void)

@@ -242,7 +242,7 @@ iso_status view_add_orbit(iso_context *ctx, view_page *page, iso_record *rows)
     if (status != ISO_OK) return is_fatal(status) ? status : ISO_OK;
     for (int model = 0; model < (*page->alone ? 1 : 2); model++) {
         iso_record *drifts;
-        status = iso_check_drifts_of(ctx, &page->params, rows, (iso_model_kind)model, &drifts);
+        status = iso_check_drifts(ctx, &page->params, rows, model, &drifts);
         if (status == ISO_OK) status = view_add(ctx, page, "drifts", -1, drifts);
         if (is_fatal(status)) return status;
     }

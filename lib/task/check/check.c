@@ -16,22 +16,7 @@
 
 /* --- beginning -------------------------------------------------------------------------------------------------- */
 
-static bool has_model(const checker *c, int first)
-{
-    for (int i = 0; i < ISO_STATE; i++)
-        if (c->columns[first + i] < 0) return false;
-    return true;
-}
-
-/* The clock to follow: the model's own if the record has it, else the first one there; -1: the record has none. */
-static int clock_to_follow(const checker *c, const iso_system *system)
-{
-    if (c->columns[system->clock] >= 0) return (int)system->clock;
-    for (int k = 0; k < ISO_CLOCKS; k++)
-        if (c->columns[k] >= 0) return k;
-    return -1;
-}
-
+/* The clock to follow is the model's own if the record has it, else the first one there; -1: the record has none. */
 static iso_status find_model(checker *c, iso_model_kind kind)
 {
     checked_model *m = &c->model[kind];
@@ -40,8 +25,12 @@ static iso_status find_model(checker *c, iso_model_kind kind)
     m->kind = kind;
     m->system = kind == ISO_BALL ? &iso_system_ball : &iso_system_point;
     m->first = kind == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
-    m->there = has_model(c, m->first);
-    m->clock = clock_to_follow(c, m->system);
+    m->there = true;
+    for (int i = 0; i < ISO_STATE; i++) m->there = m->there && c->columns[m->first + i] >= 0;
+    m->clock = -1;
+    for (int k = ISO_CLOCKS - 1; k >= 0; k--)
+        if (c->columns[k] >= 0) m->clock = k;
+    if (c->columns[m->system->clock] >= 0) m->clock = (int)m->system->clock;
     m->has_eps = m->there && kind == ISO_POINT && iso_record_coupling(c->ctx, c->record, c->params, &m->eps, &status);
     return status;
 }
@@ -100,14 +89,6 @@ static iso_status open_first(checker *c, checked_model *m, const double row[])
     return iso_orbit_create(c->ctx, c->params, &start, &o, &m->orbit);
 }
 
-/* What only the first row of an orbit is asked. */
-static iso_status begin_model(checker *c, checked_model *m, const double row[])
-{
-    for (int i = 0; i < ISO_STATE; i++) c->looked[m->first + i] = true;
-    ISO_TRY(iso_checker_energy(c, m, row));
-    return iso_checker_flow_begin(c, m, row);
-}
-
 static iso_status check_model(checker *c, checked_model *m, const double row[])
 {
     iso_start start;
@@ -116,7 +97,10 @@ static iso_status check_model(checker *c, checked_model *m, const double row[])
     if (c->begins) iso_checker_expect(c, m, row);
     iso_checker_integrals(c, m, row);
     if (m->kind == ISO_BALL) iso_checker_beginning(c, m, row);
-    return c->begins ? begin_model(c, m, row) : iso_checker_flow(c, m, row);
+    if (!c->begins) return iso_checker_flow(c, m, row);
+    for (int i = 0; i < ISO_STATE; i++) c->looked[m->first + i] = true;
+    ISO_TRY(iso_checker_energy(c, m, row));
+    return iso_checker_flow_begin(c, m, row);
 }
 
 static void check_map(checker *c, const double row[])
@@ -300,7 +284,7 @@ static iso_status look_at_rows(checker *c, checked_model *m, const iso_record *r
     return status;
 }
 
-static iso_status drifts_of(iso_context *ctx, const iso_params *params, const iso_record *record, int model,
+iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record, int model,
                             iso_record **drifts)
 {
     ISO_DEFAULT_ARITHMETIC;
@@ -313,17 +297,6 @@ static iso_status drifts_of(iso_context *ctx, const iso_params *params, const is
     iso_checking_free(c);
     if (status != ISO_OK) iso_record_free(*drifts), *drifts = NULL;
     return status;
-}
-
-iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record, iso_record **drifts)
-{
-    return drifts_of(ctx, params, record, -1, drifts);
-}
-
-iso_status iso_check_drifts_of(iso_context *ctx, const iso_params *params, const iso_record *record,
-                               iso_model_kind model, iso_record **drifts)
-{
-    return drifts_of(ctx, params, record, (int)model, drifts);
 }
 
 const iso_field iso_residual_fields[] = {

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/vec3_impl.h"
 #include "model/model_impl.h"
 #include "task/check/check_impl.h"
 

@@ -113,16 +113,6 @@ void iso_checker_choose_observers(checker *c)
 
 /* --- lines: h, eps, c ------------------------------------------------------------------------------------------- */
 
-/* The energy h in own units that a line states, by itself or by eps; false: it does not, or *status. */
-static bool stated_energy(const checker *c, const iso_units *units, const char *key, double *h, iso_status *status)
-{
-    const bool eps = strcmp(key, "eps") == 0;
-    if (!iso_record_get_numbers(c->ctx, c->record, key, 1, h, status)) return false;
-    *h /= iso_unit(units, eps ? iso_dimension_eps : iso_dimension_h);
-    if (eps) *h = iso_energy(&units->own, *h);
-    return isfinite(*h);
-}
-
 /* How far the first row is from the energy h, relative to the size of its terms. A point has it if its H is that of
  * its level. */
 static double off_energy(const checked_model *m, const double own[], double h)
@@ -133,15 +123,6 @@ static double off_energy(const checked_model *m, const double own[], double h)
     if (!ball) f.eps = iso_coupling(&f.p, h);
     const double here = m->system->energy(&f, own, &size), wanted = ball ? h : m->expect.level;
     return here == wanted ? 0 : fabs(here - wanted) / fmax(size, fabs(wanted));
-}
-
-/* A free point may have any H: then only h and eps can be compared, with each other. */
-static void take_level(checked_model *m, const double own[], double eps)
-{
-    double size;
-    iso_problem f = m->expect.problem;
-    f.eps = eps;
-    m->expect.level = m->system->energy(&f, own, &size);
 }
 
 static void note_line(checker *c, checked_model *m, const char *key, const char *what, double off)
@@ -157,15 +138,20 @@ iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]
     const bool ball = m->kind == ISO_BALL, level = iso_effects_have_level(&c->stated);
     const bool any_level = !ball && !m->expect.on_level;
     const char *what = any_level ? "h and eps of the file, against each other" : "this line, against the first row";
-    double h, eps, own[ISO_MAX_STATE], least = INFINITY;
-    iso_status status = ISO_OK;
-    const bool has_h = stated_energy(c, units, "h", &h, &status);
-    const bool has_eps = status == ISO_OK && stated_energy(c, units, "eps", &eps, &status);
+    double own[ISO_MAX_STATE], least = INFINITY;
+    iso_status status;
+    const double h = iso_stated_energy(c->ctx, c->record, units, "h", &status);
+    ISO_TRY(status);
+    const double eps = iso_stated_energy(c->ctx, c->record, units, "eps", &status);
+    const bool has_h = isfinite(h), has_eps = isfinite(eps);
     if (status != ISO_OK || !iso_orbit_has_twin(m->orbit) || (!ball && c->model[ISO_BALL].there)) return status;
     iso_checker_own(c, &m->expect, first, own);
-    if (any_level) { /* nothing but the other of the two can be compared with it; the flow depends on eps */
+    if (any_level) { /* a free point may have any H: h and eps are compared with each other; the flow depends on eps */
+        double size;
+        iso_problem f = m->expect.problem;
         if (!has_h || !has_eps) return ISO_OK;
-        take_level(m, own, iso_coupling(&units->own, eps));
+        f.eps = iso_coupling(&units->own, eps);
+        m->expect.level = m->system->energy(&f, own, &size);
     }
     if (has_h) note_line(c, m, "h", what, least = off_energy(m, own, h));
     if (has_eps) note_line(c, m, "eps", what, off_energy(m, own, any_level ? h : eps));
@@ -180,26 +166,22 @@ iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]
 
 /* --- lines: the start ------------------------------------------------------------------------------------------- */
 
-static void compare_beginning(checker *c, checked_model *ball, iso_effect_id id, const iso_effect_number *n,
-                              const double row[])
-{
-    const int column = iso_effect_group(id, n->turns_with, NULL);
-    double error = 0, size = 0;
-    char key[ISO_NAME_SIZE];
-    for (int i = 0; i < n->count; i++) {
-        const double stated = iso_effect_values(&c->stated, id, n)[i], there = iso_checker_at(c, row, column + i);
-        error = fmax(error, fabs(there - stated));
-        size = fmax(size, fmax(fabs(there), fabs(stated)));
-    }
-    iso_effect_line(key, iso_effect_list[id], n->name);
-    note_line(c, ball, key, "this line, against the row at time 0", size > 0 ? error / size : 0);
-}
-
 void iso_checker_beginning(checker *c, checked_model *ball, const double row[])
 {
+    char key[ISO_NAME_SIZE];
     if (ball->clock < 0 || iso_checker_at(c, row, ball->clock) != 0) return;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; c->stated.on[e] && n && n->name; n++)
-            if (n->turns_with && iso_columns_have_group(c->columns, e, n->turns_with))
-                compare_beginning(c, ball, e, n, row);
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; c->stated.on[e] && n && n->name; n++) {
+            if (!n->turns_with || !iso_columns_have_group(c->columns, e, n->turns_with)) continue;
+            const int column = iso_effect_group(e, n->turns_with, NULL);
+            double error = 0, size = 0;
+            for (int i = 0; i < n->count; i++) {
+                const double stated = iso_effect_values(&c->stated, e, n)[i],
+                             there = iso_checker_at(c, row, column + i);
+                error = fmax(error, fabs(there - stated));
+                size = fmax(size, fmax(fabs(there), fabs(stated)));
+            }
+            iso_effect_line(key, iso_effect_list[e], n->name);
+            note_line(c, ball, key, "this line, against the row at time 0", size > 0 ? error / size : 0);
+        }
 }

@@ -21,25 +21,18 @@ static const double NEAR = 0.5;
 
 /* --- by integration --------------------------------------------------------------------------------------------- */
 
-static iso_orbit_options options_of(const checker *c, const checked_model *m, const iso_start *start,
-                                    const iso_effects *effects)
-{
-    iso_orbit_options o = iso_orbit_defaults(start);
-    o.effects = effects;
-    o.tolerance = c->tolerance;
-    o.method = m->method;
-    if (m->clock >= 0) o.clock = (iso_clock)m->clock;
-    o.max_steps = ISO_MAX_ROW_STEPS;
-    for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = k != m->clock && c->columns[k] >= 0;
-    return o;
-}
-
 iso_status iso_checker_open(const checker *c, const checked_model *m, const double row[], iso_orbit **orbit)
 {
     iso_start start;
     iso_effects effects = iso_checker_effects(c, m->kind);
     ISO_TRY(iso_record_start_at(c->ctx, c->record, c->params, m->kind, row, &start, &effects));
-    iso_orbit_options o = options_of(c, m, &start, &effects);
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    o.effects = &effects;
+    o.tolerance = c->tolerance;
+    o.method = m->method;
+    if (m->clock >= 0) o.clock = (iso_clock)m->clock;
+    o.max_steps = ISO_MAX_ROW_STEPS;
+    for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = k != m->clock && c->columns[k] >= 0;
     iso_status status = iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
     if (status != ISO_NOT_MAPPED) return status;
     for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = false;
@@ -92,15 +85,6 @@ static iso_status check_step(checker *c, checked_model *m, const double row[])
 
 /* --- by quadrature ---------------------------------------------------------------------------------------------- */
 
-/* The state moves little from the last row to this one. */
-static bool is_near(const checker *c, const checked_model *m, const double row[])
-{
-    double a[ISO_STATE], b[ISO_STATE];
-    iso_row_state(c->columns, m->kind, m->rows.last, a);
-    iso_row_state(c->columns, m->kind, row, b);
-    return iso_distance(a, b) <= NEAR;
-}
-
 /* How far the clock's step in the rows is from that of the quadrature. */
 static double clock_defect(const checker *c, const checked_model *m, const iso_row_gap *gap, int k,
                            const double row[])
@@ -113,7 +97,11 @@ static double clock_defect(const checker *c, const checked_model *m, const iso_r
 static bool passes(checker *c, checked_model *m, const double row[])
 {
     iso_row_gap gap;
-    if (!m->followed || !is_near(c, m, row) || !iso_rows_measure(&m->rows, 0, &gap)) return false;
+    double last[ISO_STATE], here[ISO_STATE];
+    if (!m->followed) return false;
+    iso_row_state(c->columns, m->kind, m->rows.last, last);
+    iso_row_state(c->columns, m->kind, row, here);
+    if (!(iso_distance(last, here) <= NEAR) || !iso_rows_measure(&m->rows, 0, &gap)) return false;
     bool good = gap.miss <= SIEVE * m->seen;
     for (int k = 0; k < ISO_CLOCKS; k++) good = good && clock_defect(c, m, &gap, k, row) <= SIEVE * m->seen_clock[k];
     if (good) return true;

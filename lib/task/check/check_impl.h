@@ -48,21 +48,18 @@ void iso_checking_pass(iso_checking *checking);
 iso_status iso_checking_end(iso_checking *checking, iso_residuals *residuals);
 
 /* What the check does not look at: columns that nothing was compared with, and lines that are neither compared with rows
- * nor part of the equations that were followed. Calls `tell` for each: "mu", "# tolerance"; and "the flow from row to
+ * nor part of the equations that were followed. Calls `note` for each: "mu", "# tolerance"; and "the flow from row to
  * row" where no orbit has two rows, or no clock. Call it after iso_checking_end. */
-void iso_checking_unseen(iso_checking *checking, void (*tell)(void *data, const char *name), void *data);
+void iso_checking_unseen(iso_checking *checking, void (*note)(void *data, const char *name), void *data);
 
-/* The drifts of the integrals that hold, row by row, as a new record. The first column is the model's first clock, or
+/* The drifts of the integrals that hold, row by row, as a new record; of the model whose states the record must have, or
+ * (-1) of the ball if it has both. The first column is the model's first clock, or
  * "row", the row's number. The others ("h", "F_shell", ...) are |I(row) - I(first row)| / size; for a constraint its
  * exact value stands in the place of I(first row). Of those that are no constraints, lines say what they are: h.doc,
  * h.model, h.dimension (exponents a, b, c of the unit (mass length^2)^(a + b/(2k)) / time^c), h.start and h.worst.
  * Errors: those of iso_check. */
-iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record,
+iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record, int model,
                             iso_record **drifts);
-
-/* The same of one model, whose states the record must have; without `model` it is the ball if it has both. */
-iso_status iso_check_drifts_of(iso_context *ctx, const iso_params *params, const iso_record *record,
-                               iso_model_kind model, iso_record **drifts);
 
 typedef struct iso_checking checker;
 
@@ -191,7 +188,6 @@ typedef struct iso_checked {
     iso_residual residual;
     double bound;
 } iso_checked;
-bool iso_checked_is_bad(const void *checked);
 
 /* What the study finds; a name of what is not looked at. */
 enum { ISO_UNSEEN_SIZE = 560 };
@@ -203,12 +199,5 @@ typedef struct iso_check_found {
     size_t unseen_count;
     char (*unseen)[ISO_UNSEEN_SIZE];
 } iso_check_found;
-void iso_check_found_free(void *found);
-extern const iso_field iso_check_fields[];
-
-/* Checks the rows one after the other. A mistake in the first one is told before what the header lacks. header: gets
- * the lines that the request and the scene (NULL: none) state. *f begins as zeros, and is to be freed. */
-iso_status iso_source_rows(iso_context *ctx, const iso_check_request *r, const iso_scene *scene, iso_record *header,
-                           const iso_row_source *from, iso_check_found *f);
 
 #endif

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "orbit/description.h"
 #include "study/added_impl.h"
@@ -12,7 +11,7 @@
 
 /* --- what is found ---------------------------------------------------------------------------------------------- */
 
-bool iso_checked_is_bad(const void *checked)
+static bool is_bad(const void *checked)
 {
     const iso_checked *c = checked;
     return !isnan(c->bound) && !(c->residual.worst <= c->bound);
@@ -20,7 +19,7 @@ bool iso_checked_is_bad(const void *checked)
 
 const iso_field iso_checked_fields[] = {
     ISO_STRUCT(iso_checked, "", residual, iso_residual_fields, "what is 0"),
-    ISO_IS("above_the_bound", iso_checked_is_bad, "whether it is larger than --max"),
+    ISO_IS("above_the_bound", is_bad, "whether it is larger than --max"),
     ISO_FIELD_END,
 };
 
@@ -28,7 +27,7 @@ static const iso_field name_field[] = {{.name = "", .type = ISO_FIELD_TEXT}, ISO
 
 #define FIELD(key, member, ...) ISO_MEMBER(iso_check_found, key, member, __VA_ARGS__)
 
-const iso_field iso_check_fields[] = {
+static const iso_field check_fields[] = {
     FIELD("rows", rows, "", "of the file"),
     FIELD("passed_over", passed, "", "rows of nan"),
     FIELD("bound", bound, "", "of --max"),
@@ -38,7 +37,7 @@ const iso_field iso_check_fields[] = {
 };
 #undef FIELD
 
-void iso_check_found_free(void *found)
+static void free_found(void *found)
 {
     if (found) free(((iso_check_found *)found)->unseen);
     free(found);
@@ -80,17 +79,20 @@ static iso_status end_check(iso_context *ctx, iso_checking *checking, const char
     return k.lost ? iso_context_no_memory(ctx, "the names of what is not looked at") : ISO_OK;
 }
 
-iso_status iso_source_rows(iso_context *ctx, const iso_check_request *r, const iso_scene *scene, iso_record *header,
-                           const iso_row_source *from, iso_check_found *f)
+/* The rows one after the other. A mistake in the first one is told before what the header lacks. */
+static iso_status check_rows(iso_context *ctx, const iso_study_subject *subject, const iso_check_request *r,
+                             const iso_row_source *from, iso_check_found *f)
 {
     iso_params params;
+    iso_record *header = NULL; /* with the lines that the request and the scene state */
     iso_checking *checking = NULL;
-    iso_source_row row = {.passed = 0};
+    iso_source_row row = {.number = calloc(iso_record_columns(subject->record) + 1, sizeof *row.number)};
     size_t passed = 0;
     f->bound = r->bound;
-    row.number = calloc(iso_record_columns(header) + 1, sizeof *row.number);
-    iso_status status = row.number ? from->next(ctx, from->data, &row) : iso_context_no_memory(ctx, "a row");
-    if (status == ISO_OK) status = iso_added_params(ctx, &r->added, scene, header, &params);
+    iso_status status = row.number ? iso_record_create_like(ctx, subject->record, 0, NULL, &header)
+                                   : iso_context_no_memory(ctx, "a row");
+    if (status == ISO_OK) status = from->next(ctx, from->data, &row);
+    if (status == ISO_OK) status = iso_added_params(ctx, &r->added, subject->scene, header, &params);
     if (status == ISO_OK) status = iso_checking_create(ctx, &params, header, r->tolerance, &checking);
     while (status == ISO_OK) {
         for (; passed < row.passed; passed++) iso_checking_pass(checking);
@@ -101,29 +103,14 @@ iso_status iso_source_rows(iso_context *ctx, const iso_check_request *r, const i
     }
     if (status == ISO_OK) status = end_check(ctx, checking, row.ignored, f);
     iso_checking_free(checking);
+    iso_record_free(header);
     free(row.number);
     return status;
 }
 
 /* --- the study -------------------------------------------------------------------------------------------------- */
 
-static void begin(void *options)
-{
-    *(iso_check_request *)options = (iso_check_request)ISO_CHECK_UNSET;
-}
-
-static iso_status find(iso_context *ctx, const iso_study_subject *subject, const iso_check_request *r,
-                       iso_study_result *result, iso_check_found *f)
-{
-    iso_kept_rows at = {.record = subject->record, .sink = &result->sink, .passes_nan = true};
-    const iso_row_source kept = {iso_kept_rows_next, &at};
-    iso_record *header;
-    ISO_TRY(iso_record_create_like(ctx, subject->record, 0, NULL, &header));
-    const iso_status status =
-        iso_source_rows(ctx, r, subject->scene, header, subject->rows ? subject->rows : &kept, f);
-    iso_record_free(header);
-    return status;
-}
+ISO_STUDY_BEGIN(iso_check_request, (iso_check_request)ISO_CHECK_UNSET)
 
 static void print_found(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
 {
@@ -137,7 +124,7 @@ static void print_found(FILE *to, const iso_scene *scene, const void *options, c
     for (int i = 0; i < f->count; i++) {
         const iso_residual *x = &f->checked[i].residual;
         fprintf(to, "%s\t%.2e\t%zu\t%s%s\n", x->name, x->worst, x->row, x->what,
-                iso_checked_is_bad(&f->checked[i]) ? "  ABOVE THE BOUND" : "");
+                is_bad(&f->checked[i]) ? "  ABOVE THE BOUND" : "");
     }
     iso_table_end(to);
     if (f->unseen_count > 0) fputs("not looked at:", to);
@@ -148,14 +135,16 @@ static void print_found(FILE *to, const iso_scene *scene, const void *options, c
 static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result)
 {
+    iso_kept_rows at = {.record = subject->record, .sink = &result->sink, .passes_nan = true};
+    const iso_row_source kept = {iso_kept_rows_next, &at};
     iso_field fields[ISO_MOST_FIELDS];
-    iso_check_found *f = iso_study_keep(result, calloc(1, sizeof *f), iso_check_fields, iso_check_found_free);
+    iso_check_found *f = iso_study_keep(result, calloc(1, sizeof *f), check_fields, free_found);
     if (!f) return iso_context_no_memory(ctx, "a check");
-    ISO_TRY(find(ctx, subject, options, result, f));
-    iso_fields_copy(iso_check_fields, "residuals", fields);
+    ISO_TRY(check_rows(ctx, subject, options, subject->rows ? subject->rows : &kept, f));
+    iso_fields_copy(check_fields, "residuals", fields);
     iso_status status =
         iso_study_table(ctx, "check", subject->scene, fields, f, iso_checked_fields, &result->table[0]);
-    for (int i = 0; i < f->count; i++) result->failed = result->failed || iso_checked_is_bad(&f->checked[i]);
+    for (int i = 0; i < f->count; i++) result->failed = result->failed || is_bad(&f->checked[i]);
     for (int i = 0; status == ISO_OK && i < f->count; i++)
         status = iso_columns_append(ctx, iso_checked_fields, &f->checked[i], result->table[0]);
     return status;

@@ -40,17 +40,17 @@ static bool is_of_equations(const checker *c, const char *key)
     return false;
 }
 
-void iso_checking_unseen(iso_checking *c, void (*tell)(void *data, const char *name), void *data)
+void iso_checking_unseen(iso_checking *c, void (*note)(void *data, const char *name), void *data)
 {
     char name[ISO_NAME_SIZE + 8];
     const char *key, *value;
-    if (!is_followed(c)) tell(data, "the flow from row to row");
+    if (!is_followed(c)) note(data, "the flow from row to row");
     for (size_t i = 0; i < c->width; i++) {
         const int column = iso_column_find(iso_record_name(c->record, i));
-        if (column < 0 || !c->looked[column]) tell(data, iso_record_name(c->record, i));
+        if (column < 0 || !c->looked[column]) note(data, iso_record_name(c->record, i));
     }
     for (size_t i = 0; iso_record_line(c->record, i, &key, &value); i++) {
         snprintf(name, sizeof name, "# %.*s", ISO_NAME_SIZE, key);
-        if (!is_compared(c, name) && !(is_followed(c) && is_of_equations(c, key))) tell(data, name);
+        if (!is_compared(c, name) && !(is_followed(c) && is_of_equations(c, key))) note(data, name);
     }
 }

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/vec3_impl.h"
 #include "orbit/orbit_impl.h"
 #include "task/convert/convert_impl.h"
 
@@ -33,12 +32,6 @@ static iso_status begin(iso_conversion *c, const double row[], const conversion_
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-/* The first row fits, and three after it have other energies: then the file's eps or h is wrong, not these rows. */
-static bool is_eps_wrong(iso_conversion *c, const conversion_row *r)
-{
-    return r->other_energy && c->good == 1 && ++c->strangers == 3;
-}
-
 /* From the first good row on it is known which effects only observe. Those that break the isomorphism are refused. */
 static iso_status settle_effects(iso_conversion *c, const double row[])
 {
@@ -62,7 +55,9 @@ iso_status iso_conversion_put(iso_conversion *c, const double row[], size_t line
     c->summary.rows++;
     ISO_TRY(settle_effects(c, row));
     iso_status status = iso_conversion_read_row(c, row, &r);
-    if (status != ISO_OK) return is_eps_wrong(c, &r) ? status : iso_conversion_bad(c, line, status);
+    /* the first row fits, and three after it have other energies: the file's eps or h is wrong, not these rows */
+    if (r.other_energy && c->good == 1 && ++c->strangers == 3) return status;
+    if (status != ISO_OK) return iso_conversion_bad(c, line, status);
     c->good++;
     if (!c->begun) status = begin(c, row, &r);
     if (status != ISO_OK) return status;
@@ -76,11 +71,6 @@ iso_status iso_conversion_skip(iso_conversion *c)
     return iso_conversion_mark(c);
 }
 
-static void add_worst(iso_worst *all, const iso_worst *one)
-{
-    if (one->line > 0) iso_worst_note(all, one->value, one->line);
-}
-
 static void add_summary(iso_conversion_summary *all, const iso_conversion_summary *one)
 {
     const iso_conversion_summary before = *all;
@@ -90,10 +80,10 @@ static void add_summary(iso_conversion_summary *all, const iso_conversion_summar
     all->bad += before.bad;
     all->missed += before.missed;
     if (before.missed > 0) all->missed_line = before.missed_line;
-    add_worst(&all->constraint, &before.constraint);
-    add_worst(&all->energy, &before.energy);
-    add_worst(&all->defect, &before.defect);
-    add_worst(&all->drift, &before.drift);
+    iso_worst *const to[] = {&all->constraint, &all->energy, &all->defect, &all->drift};
+    const iso_worst *const from[] = {&before.constraint, &before.energy, &before.defect, &before.drift};
+    for (int i = 0; i < 4; i++)
+        if (from[i]->line > 0) iso_worst_note(to[i], from[i]->value, from[i]->line);
     all->checked = all->checked || before.checked;
     all->between += before.between;
     all->integrated += before.integrated;
@@ -111,7 +101,7 @@ iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *all)
     c->summary.clock = c->other;
     add_summary(all, &c->summary);
     if (c->begun) return ISO_OK;
-    if (c->first_words) return iso_context_fail(c->ctx, c->first_failure, "", "%s", c->first_words);
+    if (c->first_text) return iso_context_fail(c->ctx, c->first_failure, "", "%s", c->first_text);
     return ISO_FAIL_INPUT(c->ctx, "", c->summary.rows ? "no row could be read" : "the trajectory has no rows");
 }
 
@@ -134,17 +124,6 @@ static iso_status find_columns(iso_conversion *c)
     return ISO_OK;
 }
 
-static iso_status read_lines(iso_conversion *c)
-{
-    iso_status status = iso_record_effects(c->ctx, c->in, &c->effects);
-    c->stated_eps = NAN;
-    if (status == ISO_OK && c->from == ISO_POINT) {
-        double eps;
-        if (iso_record_coupling(c->ctx, c->in, c->params, &eps, &status)) c->stated_eps = eps;
-    }
-    return status;
-}
-
 iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header,
                                  const iso_convert_request *how, const char *name, const iso_sink *sink,
                                  iso_conversion **conversion)
@@ -165,7 +144,11 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
     iso_status status = find_columns(c);
     if (status == ISO_OK && how->shift_J && (c->from != ISO_POINT || params->k != -1))
         status = ISO_FAIL_ARGUMENT(ctx, "shift-J", "energy can shift J for a point with k = -1 alone");
-    if (status == ISO_OK) status = read_lines(c);
+    if (status == ISO_OK) status = iso_record_effects(ctx, header, &c->effects);
+    double eps;
+    c->stated_eps = NAN;
+    if (status == ISO_OK && c->from == ISO_POINT && iso_record_coupling(ctx, header, params, &eps, &status))
+        c->stated_eps = eps;
     if (status == ISO_OK) return ISO_OK;
     iso_conversion_free(c);
     *conversion = NULL;
@@ -177,6 +160,6 @@ void iso_conversion_free(iso_conversion *c)
     if (!c) return;
     iso_rows_free(&c->rows);
     iso_orbit_free(c->first);
-    free(c->first_words);
+    free(c->first_text);
     free(c);
 }

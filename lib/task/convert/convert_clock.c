@@ -6,7 +6,6 @@
 
 #include "base/math_impl.h"
 #include "base/vec3_impl.h"
-#include "model/model_impl.h"
 #include "orbit/watch_impl.h"
 #include "task/convert/convert_impl.h"
 

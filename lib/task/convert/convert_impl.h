@@ -90,7 +90,7 @@ struct iso_conversion {
     double gained;                        /* by the other clock meanwhile                                */
     double sum, lost;                     /* the other clock, and what its roundings lost               */
     iso_status first_failure;
-    char *first_words;
+    char *first_text;
     iso_conversion_summary summary;
 };
 
@@ -117,6 +117,9 @@ void iso_worst_note(iso_worst *worst, double value, size_t line);
  * mends c of the level. True: the orbit of the row has the row's own energy, which is near the stated one or takes
  * its place; false: that of a point is another. */
 bool iso_conversion_reconcile(iso_conversion *c, const conversion_row *r);
+
+/* How far a row is from a state: the larger of | |n| - 1 | and (omega,n)/|omega|, of a point likewise. */
+double iso_conversion_constraint(const double y[ISO_STATE]);
 
 /* How well energies of rows agree, relative: 1e-6. With a wider row tolerance the caller says that the rows have
  * fewer digits; an energy is then off by several times that tolerance. */
@@ -180,6 +183,6 @@ bool iso_conversion_clock_lines(const iso_conversion_summary *summary, char key[
 
 /* What is to be told of the line summary->stated[i]; false: there is none. */
 enum { ISO_STATED_SIZE = 240 };
-bool iso_conversion_stated_words(const iso_conversion_summary *summary, int i, char words[ISO_STATED_SIZE]);
+bool iso_conversion_stated_text(const iso_conversion_summary *summary, int i, char text[ISO_STATED_SIZE]);
 
 #endif

@@ -78,14 +78,6 @@ static iso_status check_energy(iso_conversion *c, conversion_row *r)
     return ISO_OK;
 }
 
-static void note_constraints(iso_conversion *c, const conversion_row *r)
-{
-    const double size = largest(r->y), length = norm(r->y + 3) - 1;
-    double along = 0;
-    for (int i = 0; i < 3 && size > 0; i++) along += r->y[i] / size * r->y[3 + i];
-    iso_worst_note(&c->summary.constraint, fmax(fabs(length), fabs(along)), r->line);
-}
-
 /* The state in the other model, from the row as it stands: it is not made orthogonal first. */
 static iso_status map_state(const iso_conversion *c, conversion_row *r)
 {
@@ -168,26 +160,20 @@ static iso_status open_units(iso_conversion *c, const conversion_row *r)
     return ISO_OK;
 }
 
-static iso_status check_finite(const iso_conversion *c, const double row[])
-{
-    for (size_t i = 0; i < iso_record_columns(c->in); i++)
-        if (!isfinite(row[i])) return ISO_FAIL_INPUT(c->ctx, "", "%s is not finite", iso_record_name(c->in, i));
-    return ISO_OK;
-}
-
 iso_status iso_conversion_read_row(iso_conversion *c, const double row[], conversion_row *r)
 {
     iso_start start;
     iso_row_state(c->columns, c->from, row, r->y);
     r->time = c->own_column >= 0 ? row[c->own_column] : 0;
-    ISO_TRY(check_finite(c, row));
+    for (size_t i = 0; i < iso_record_columns(c->in); i++)
+        if (!isfinite(row[i])) return ISO_FAIL_INPUT(c->ctx, "", "%s is not finite", iso_record_name(c->in, i));
     ISO_TRY(start_of(c, r->y, &start));
     if (!c->begun) ISO_TRY(open_units(c, r));
     copy(r->y, r->own, ISO_STATE);
     for (int i = 0; i < 3; i++) r->own[i] /= c->unit_from;
     ISO_TRY(check_energy(c, r));
     ISO_TRY(map_state(c, r));
-    note_constraints(c, r);
+    iso_worst_note(&c->summary.constraint, iso_conversion_constraint(r->y), r->line);
     if (c->other_column >= 0) r->out[0] = row[c->other_column];
     return ISO_OK;
 }
@@ -204,13 +190,6 @@ void iso_worst_note(iso_worst *worst, double value, size_t line)
 /* If so many rows at the beginning of a file are all bad, the conversion ends. */
 enum { HOPELESS = 20 };
 
-static iso_status give_up(const iso_conversion *c)
-{
-    const char *words = c->first_words ? c->first_words : "none can be read";
-    return iso_context_fail(c->ctx, c->first_words ? c->first_failure : ISO_BAD_INPUT, "",
-                            "not one of the first %d rows can be converted: %s", HOPELESS, words);
-}
-
 iso_status iso_conversion_write(const iso_conversion *c, const double row[])
 {
     return c->sink.row(c->sink.data, 0, row, c->width);
@@ -218,7 +197,10 @@ iso_status iso_conversion_write(const iso_conversion *c, const double row[])
 
 iso_status iso_conversion_mark(iso_conversion *c)
 {
-    return !c->begun && c->summary.bad == HOPELESS ? give_up(c) : iso_conversion_write(c, NULL);
+    if (c->begun || c->summary.bad != HOPELESS) return iso_conversion_write(c, NULL);
+    return iso_context_fail(c->ctx, c->first_text ? c->first_failure : ISO_BAD_INPUT, "",
+                            "not one of the first %d rows can be converted: %s", HOPELESS,
+                            c->first_text ? c->first_text : "none can be read");
 }
 
 iso_status iso_conversion_name(const iso_conversion *c, size_t line, iso_status why, const char *text)
@@ -236,9 +218,9 @@ iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why)
     const bool ends = why == ISO_NO_MEMORY || why == ISO_STOPPED || why == ISO_FILE_TROUBLE || why == ISO_CLOSED_PIPE;
     if (ends) return why;
     if (why == ISO_BAD_ARGUMENT) why = ISO_BAD_INPUT; /* the argument comes from the file */
-    if (!c->begun && !c->first_words) {
+    if (!c->begun && !c->first_text) {
         c->first_failure = why;
-        c->first_words = strdup(iso_context_message(c->ctx));
+        c->first_text = strdup(iso_context_message(c->ctx));
     }
     c->summary.bad++;
     ISO_TRY(iso_conversion_name(c, line, why, iso_context_message(c->ctx)));

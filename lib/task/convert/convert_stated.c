@@ -28,14 +28,19 @@ double iso_conversion_digits(const iso_conversion *c)
 
 /* --- how exact a row is ----------------------------------------------------------------------------------------- */
 
+double iso_conversion_constraint(const double y[ISO_STATE])
+{
+    const double size = largest(y);
+    double along = 0;
+    for (int i = 0; i < 3 && size > 0; i++) along += y[i] / size * y[3 + i];
+    return fmax(fabs(norm(y + 3) - 1), fabs(along));
+}
+
 /* A row is as exact as its constraints show. Energies are squares, with powers 1/k, of vectors that may lie along the
  * axis of the least moment. */
 static double rounding_of(const iso_conversion *c, const conversion_row *r)
 {
-    const double *J = c->params->J, size = largest(r->y);
-    double along = 0;
-    for (int i = 0; i < 3 && size > 0; i++) along += r->y[i] / size * r->y[3 + i];
-    const double digits = fmax(2 * DBL_EPSILON, fmax(fabs(norm(r->y + 3) - 1), fabs(along)));
+    const double *J = c->params->J, digits = fmax(2 * DBL_EPSILON, iso_conversion_constraint(r->y));
     return 8 * (1 + 1 / fabs(c->params->k)) * sqrt(max3(J) / min3(J)) * digits;
 }
 
@@ -50,14 +55,6 @@ static double growth_of(const iso_conversion *c, const conversion_row *r)
 }
 
 /* --- the account ------------------------------------------------------------------------------------------------ */
-
-static double stated_energy(const iso_conversion *c, const char *key, iso_dimension d)
-{
-    double x;
-    iso_status status;
-    return iso_record_get_numbers(c->ctx, c->in, key, 1, &x, &status) ? x / iso_unit(iso_orbit_units(c->first), d)
-                                                                      : NAN;
-}
 
 /* The point's M^2/2 + V must be its level and eps q^(-1/k). */
 static void count_row(const iso_conversion *c, const conversion_row *r, account *a)
@@ -84,8 +81,9 @@ static account account_of(const iso_conversion *c, const conversion_row *r)
     account a = {.rounding = rounding_of(c, r), .growth = growth_of(c, r)};
     count_row(c, r, &a);
     const bool shifted = c->params == &c->shifted; /* h belongs to the moments before */
-    a.h = shifted ? NAN : stated_energy(c, "h", iso_dimension_h);
-    a.eps = iso_energy(&c->first->units.own, stated_energy(c, "eps", iso_dimension_eps));
+    iso_status unused;
+    a.h = shifted ? NAN : iso_stated_energy(c->ctx, c->in, &c->first->units, "h", &unused);
+    a.eps = iso_stated_energy(c->ctx, c->in, &c->first->units, "eps", &unused);
     return a;
 }
 
@@ -106,19 +104,13 @@ static void note(iso_conversion *c, const char *key, double stated, double own, 
 
 /* One of h and eps, `number` in the caller's units for each unit of energy, against the energy that is taken: it is
  * replaced if they differ, and told if the steps to the row do not explain it. */
-static void judge(iso_conversion *c, const account *a, const char *key, double number, double stated, double taken)
+static void compare_stated(iso_conversion *c, const account *a, const char *key, double number, double stated,
+                           double taken)
 {
     if (isnan(stated) || alike(a, stated, taken, a->rounding)) return;
     c->replaces = true;
     if (!alike(a, stated, taken, a->rounding + a->growth))
         note(c, key, stated * number, taken * number, fabs(stated - taken) / a->size);
-}
-
-/* h and eps agree with each other, but not with the row: then c is off. */
-static bool level_is_off(const iso_conversion *c, const account *a)
-{
-    return iso_effects_have_level(&c->effects) && alike(a, a->h, a->eps, a->rounding) &&
-           !alike(a, a->h, a->row, a->rounding + a->growth);
 }
 
 /* The c that h and eps say. */
@@ -134,35 +126,30 @@ static void mend_level(iso_conversion *c, const account *a)
     c->replaces = true;
 }
 
-/* Whether the row has the energy of one of h and eps, up to the digits of rows and lines. */
-static bool fits(const iso_conversion *c, const account *a)
-{
-    const double digits = iso_conversion_digits(c);
-    return alike(a, a->h, a->row, digits) || alike(a, a->eps, a->row, digits);
-}
-
 bool iso_conversion_reconcile(iso_conversion *c, const conversion_row *r)
 {
     const iso_params *p = &c->first->units.own;
+    const double digits = iso_conversion_digits(c);
     account a = account_of(c, r);
     c->summary.stated_count = 0; /* the row before may have been bad */
     c->replaces = c->params == &c->shifted || (isnan(a.h) && isnan(a.eps));
-    if (level_is_off(c, &a)) {
+    if (iso_effects_have_level(&c->effects) && alike(&a, a.h, a.eps, a.rounding) &&
+        !alike(&a, a.h, a.row, a.rounding + a.growth)) { /* h and eps agree with each other, not with the row */
         mend_level(c, &a);
         a.row = a.h;
     }
-    const bool own = c->from == ISO_BALL || fits(c, &a);
+    const bool own = c->from == ISO_BALL || alike(&a, a.h, a.row, digits) || alike(&a, a.eps, a.row, digits);
     const double taken = own ? a.row : isnan(a.eps) ? a.h : a.eps;
-    judge(c, &a, "h", iso_unit(&c->first->units, iso_dimension_h), a.h, taken);
-    judge(c, &a, "eps", iso_coupling(p, 1) * iso_unit(&c->first->units, iso_dimension_eps), a.eps, taken);
+    compare_stated(c, &a, "h", iso_unit(&c->first->units, iso_dimension_h), a.h, taken);
+    compare_stated(c, &a, "eps", iso_coupling(p, 1) * iso_unit(&c->first->units, iso_dimension_eps), a.eps, taken);
     return own;
 }
 
-bool iso_conversion_stated_words(const iso_conversion_summary *s, int i, char words[ISO_STATED_SIZE])
+bool iso_conversion_stated_text(const iso_conversion_summary *s, int i, char text[ISO_STATED_SIZE])
 {
     if (i >= s->stated_count) return false;
     const iso_stated *x = &s->stated[i];
-    snprintf(words, ISO_STATED_SIZE,
+    snprintf(text, ISO_STATED_SIZE,
              "# %s: %s does not fit the first row (off by %.2g of the terms of its energy); %s fits, and is written",
              x->key, ISO_SHORT(x->stated), x->off, ISO_SHORT(x->own));
     return true;
@@ -233,15 +220,6 @@ static iso_status set_lines(const iso_conversion *c, iso_model_kind to, double b
     return ISO_OK;
 }
 
-/* The first value of the computed clock. */
-static iso_status find_origin(iso_conversion *c)
-{
-    iso_status status = ISO_OK;
-    c->sum = 0;
-    iso_record_get_numbers(c->ctx, c->in, origin_line[c->other], 1, &c->sum, &status);
-    return status;
-}
-
 iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record **header)
 {
     const iso_model_kind to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
@@ -251,7 +229,8 @@ iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record *
     for (int i = 0; i < ISO_STATE; i++) names[has_clock + i] = target->state[i];
     iso_status status = iso_record_create(c->ctx, (size_t)(has_clock + ISO_STATE), names, header);
     if (status == ISO_OK) status = set_lines(c, to, begin, *header);
-    if (status == ISO_OK) status = find_origin(c);
+    c->sum = 0; /* the first value of the computed clock */
+    if (status == ISO_OK) iso_record_get_numbers(c->ctx, c->in, origin_line[c->other], 1, &c->sum, &status);
     if (status == ISO_OK) return ISO_OK;
     iso_record_free(*header);
     *header = NULL;

@@ -168,7 +168,7 @@ static iso_status end_rows(work *w)
     if (!w->to->row && iso_conversion_clock_lines(s, key, text))
         for (int i = 0; i < 2; i++) ISO_TRY(iso_record_set(w->ctx, w->out, key[i], text[i]));
     if (w->found->name) return ISO_OK;
-    for (int i = 0; iso_conversion_stated_words(s, i, stated); i++) iso_study_note(w->result, "%s", stated);
+    for (int i = 0; iso_conversion_stated_text(s, i, stated); i++) iso_study_note(w->result, "%s", stated);
     if (wrong) iso_study_note(w->result, "row %zu: %s", row, verdict);
     return ISO_OK;
 }
@@ -225,7 +225,7 @@ static void print(FILE *to, const iso_scene *scene, const void *options, const i
     size_t line;
     (void)scene;
     if (!f->name) return;
-    for (int i = 0; iso_conversion_stated_words(s, i, stated); i++) fprintf(to, "%s: %s\n", f->name, stated);
+    for (int i = 0; iso_conversion_stated_text(s, i, stated); i++) fprintf(to, "%s: %s\n", f->name, stated);
     if (!((const iso_convert_request *)options)->quiet) print_summary(to, f->name, s);
     if (s->bad > 0)
         fprintf(to, "%s: %zu of %zu rows could not be converted: nan stands in their place\n", f->name, s->bad,

@@ -5,6 +5,7 @@
 #include "model/model_impl.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -123,16 +124,14 @@ static void measure_errors(measurer *m, const cost_track *track, iso_cost_cell *
     if (cell->backend == ISO_BACKEND_EXACT) cell->below = false;
 }
 
-static void fail(iso_cost_cell *cell, iso_status status, const char *words)
+static void __attribute__((format(printf, 3, 4)))
+fail(iso_cost_cell *cell, iso_status status, const char *format, ...)
 {
+    va_list args;
+    va_start(args, format);
+    vsnprintf(cell->why, sizeof cell->why, format, args);
+    va_end(args);
     cell->status = status;
-    snprintf(cell->why, sizeof cell->why, "%s", words);
-}
-
-static void not_in_time(iso_cost_cell *cell, double seconds)
-{
-    cell->status = ISO_STOPPED;
-    snprintf(cell->why, sizeof cell->why, "it would take more than %.2g s, its share of the time", seconds);
 }
 
 /* The error of one cell, from a run that may take so many seconds, and that of its clock, from another run. *about is
@@ -142,7 +141,7 @@ static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double 
     cost_track track;
     iso_status status = iso_cost_track_make(&m->p, m->reference.first.times, m->time, &track);
     if (status != ISO_OK) {
-        fail(cell, status, iso_context_message(m->p.user));
+        fail(cell, status, "%s", iso_context_message(m->p.user));
         return;
     }
     status = iso_cost_walk(&m->p, cell->backend, cell->method, cell->tolerance, false, seconds, &track);
@@ -155,9 +154,9 @@ static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double 
             cell->clock_error = iso_cost_clock_distance(
                 &track, cell->backend == ISO_BACKEND_EXACT ? &m->reference.second : &m->reference.first);
     } else if (status != ISO_STOPPED) {
-        fail(cell, status, iso_context_message(m->p.ctx));
+        fail(cell, status, "%s", iso_context_message(m->p.ctx));
     } else if (!iso_cost_is_stopped(&m->p)) {
-        not_in_time(cell, seconds);
+        fail(cell, ISO_STOPPED, "it would take more than %.2g s, its share of the time", seconds);
     }
     iso_cost_track_free(&track);
 }
@@ -165,12 +164,9 @@ static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double 
 /* Leaves out the tighter tolerances of a series that takes too long. */
 static void give_up(measurer *m, const iso_cost_series *series, int from)
 {
-    for (int i = from; i < series->count; i++) {
-        iso_cost_cell *cell = &m->out->cell[series->first + i];
-        cell->status = ISO_STOPPED;
-        snprintf(cell->why, sizeof cell->why, "not tried: it takes too long at tolerance %s",
-                 ISO_SHORT(m->tolerance[from - 1]));
-    }
+    for (int i = from; i < series->count; i++)
+        fail(&m->out->cell[series->first + i], ISO_STOPPED, "not tried: it takes too long at tolerance %s",
+             ISO_SHORT(m->tolerance[from - 1]));
 }
 
 /* The time that the least number of repeats takes. Short runs are run once before, and several are timed at once. */
@@ -217,7 +213,7 @@ static void time_cell(measurer *m, iso_cost_cell *cell, cost_times *times, doubl
     if (status == ISO_OK)
         times->count++;
     else if (!m->p.monitor.stopped)
-        fail(cell, status, iso_context_message(m->p.ctx));
+        fail(cell, status, "%s", iso_context_message(m->p.ctx));
 }
 
 /* Times all cells once in each round, until all times are settled or the time is over. */

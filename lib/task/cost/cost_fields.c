@@ -1,23 +1,18 @@
 /* cost_fields.c - what the measurements of cost hold: their numbers with their meaning (cost.h). */
 #include "task/cost/cost_impl.h"
 
-static bool is_measured(const void *row)
-{
-    return iso_cost_is_measured(row);
-}
-
 static const iso_field method_fields[] = {
     ISO_MEMBER(iso_method, "method", name, "", "of integration; none: the closed solution"), ISO_FIELD_END};
 
 #define FIELD(key, member, ...) ISO_MEMBER(iso_cost_cell, key, member, __VA_ARGS__)
 #define MEASURED(key, member, ...)                                                                                   \
-    FIELD(key, member, __VA_ARGS__, .there = is_measured, .how = ISO_EMPTY | ISO_OPTIONAL)
+    FIELD(key, member, __VA_ARGS__, .there = iso_cost_is_measured, .how = ISO_EMPTY | ISO_OPTIONAL)
 
 const iso_field iso_cost_cell_fields[] = {
     FIELD("backend", backend, "", "ball, point or exact", .word = iso_backend_name),
     ISO_STRUCT(iso_cost_cell, "", method, method_fields, "of integration", .pointer = true),
     FIELD("tolerance", tolerance, "", "relative error of a step", .how = ISO_EMPTY),
-    ISO_IS("measured", is_measured, "whether there is a result", .how = ISO_IN_TREE),
+    ISO_IS("measured", iso_cost_is_measured, "whether there is a result", .how = ISO_IN_TREE),
     MEASURED("error", error, "", "the largest relative error of (omega, n)"),
     MEASURED("clock_error", clock_error, "", "the same of the other model's clock"),
     MEASURED("energy_drift", energy_drift, "", "relative drift of the energy"),

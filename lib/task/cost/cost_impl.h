@@ -101,13 +101,11 @@ double iso_cost_slope(int count, const double x[], const double y[], double apar
 void iso_cost_judge(iso_cost *cost);
 
 /* Whether a cell has a result. */
-bool iso_cost_is_measured(const iso_cost_cell *cell);
+bool iso_cost_is_measured(const void *cell);
 
-/* Whether its error is at most `want`; an error below the uncertainty of the reference counts as that uncertainty. */
-bool iso_cost_reaches(const iso_cost *cost, const iso_cost_cell *cell, double want);
-
-/* The cell with the least `total` of those that reach `want`; NULL: none does. */
-const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want);
+/* The cell with the least `total` of those that reach `want`; NULL: none does. steps: only methods that take steps;
+ * series: only its cells (NULL: all). */
+const iso_cost_cell *iso_cost_choose(const iso_cost *cost, bool steps, const iso_cost_series *series, double want);
 
 /* --- the study (cost_study.c) ----------------------------------------------------------------------------------- */
 
@@ -128,13 +126,10 @@ typedef struct iso_cost_found {
 } iso_cost_found;
 
 /* Whether a cell failed. Cells that were left out for lack of time did not. */
-bool iso_cost_has_failed(const iso_cost_cell *cell);
+bool iso_cost_has_failed(const void *cell);
 
 /* How many cells there are for which `is` is true. */
-int iso_cost_count(const iso_cost *cost, bool (*is)(const iso_cost_cell *cell));
-
-/* As iso_cost_choose, but only among the methods that take steps, and in one series (NULL: in all). */
-const iso_cost_cell *iso_cost_choose_steps(const iso_cost *cost, const iso_cost_series *series, double want);
+int iso_cost_count(const iso_cost *cost, bool (*is)(const void *cell));
 
 /* What it tells people, and the lines of its table (cost_print.c). */
 void iso_cost_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);

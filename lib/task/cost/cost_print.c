@@ -141,7 +141,7 @@ static void print_left_out(FILE *to, const iso_cost *cost)
 static void print_time_to(FILE *to, const iso_cost *cost, const iso_cost_series *series, double want)
 {
     char words[COST_SECONDS];
-    const iso_cost_cell *c = iso_cost_choose_steps(cost, series, want);
+    const iso_cost_cell *c = iso_cost_choose(cost, true, series, want);
     fprintf(to, "\t%s", seconds_text(c ? c->total : (double)NAN, words));
 }
 
@@ -181,11 +181,6 @@ static void print_lines(FILE *to, const iso_cost *cost, const iso_cost_series *c
 
 /* --- the answer ------------------------------------------------------------------------------------------------- */
 
-static const iso_cost_cell *choose_steps(const iso_cost *cost, double want)
-{
-    return iso_cost_choose_steps(cost, NULL, want);
-}
-
 static void print_choice(FILE *to, const iso_cost_cell *c, int digits)
 {
     char words[COST_OPTIONS], seconds[COST_SECONDS];
@@ -193,20 +188,18 @@ static void print_choice(FILE *to, const iso_cost_cell *c, int digits)
             seconds_text(c->total, seconds), c->error, c->below ? ", or less: the reference is no better" : "");
 }
 
-typedef const iso_cost_cell *chooser(const iso_cost *cost, double want);
-
-static const iso_cost_cell *choose_digits(const iso_cost *cost, chooser *choose, int digits)
+static const iso_cost_cell *choose_digits(const iso_cost *cost, bool steps, int digits)
 {
-    return digits <= MOST_DIGITS ? choose(cost, pow(10, -digits)) : NULL;
+    return digits <= MOST_DIGITS ? iso_cost_choose(cost, steps, NULL, pow(10, -digits)) : NULL;
 }
 
 /* Each choice once, with the most digits for which it is the choice, beginning with `digits`. Returns the first
  * number of digits that nothing reaches. */
-static int print_choices(FILE *to, const iso_cost *cost, chooser *choose, int digits)
+static int print_choices(FILE *to, const iso_cost *cost, bool steps, int digits)
 {
-    const iso_cost_cell *c = choose_digits(cost, choose, digits);
+    const iso_cost_cell *c = choose_digits(cost, steps, digits);
     for (; c; digits++) {
-        const iso_cost_cell *next = choose_digits(cost, choose, digits + 1);
+        const iso_cost_cell *next = choose_digits(cost, steps, digits + 1);
         if (next != c) print_choice(to, c, digits);
         c = next;
     }
@@ -217,22 +210,15 @@ static int print_choices(FILE *to, const iso_cost *cost, chooser *choose, int di
 static void print_answer(FILE *to, const iso_cost *cost)
 {
     fputs("what to take for an error (times with set-up, on this machine; on others the ratios are similar)\n", to);
-    const int beyond = print_choices(to, cost, iso_cost_choose, 1);
+    const int beyond = print_choices(to, cost, false, 1);
     if (beyond <= MOST_DIGITS) fprintf(to, "  nothing measured reaches 1e-%d\n", beyond);
     for (int digits = 1; digits < beyond; digits++) {
-        if (choose_digits(cost, iso_cost_choose, digits)->method) continue;
-        if (!choose_digits(cost, choose_steps, digits)) return;
+        if (choose_digits(cost, false, digits)->method) continue;
+        if (!choose_digits(cost, true, digits)) return;
         fputs("without the closed solution\n", to);
-        print_choices(to, cost, choose_steps, digits);
+        print_choices(to, cost, true, digits);
         return;
     }
-}
-
-/* The choice for --want, as options of `run`: the text of the study. */
-static void print_wanted(FILE *to, const iso_cost_cell *c)
-{
-    char words[COST_OPTIONS];
-    if (c) fprintf(to, "%s\n", options_of(c, words));
 }
 
 void iso_cost_expected(const iso_cost_found *f, char text[static ISO_COST_EXPECTED])
@@ -249,11 +235,12 @@ void iso_cost_expected(const iso_cost_found *f, char text[static ISO_COST_EXPECT
 
 void iso_cost_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
 {
+    char words[COST_OPTIONS];
     const iso_cost_found *f = result->found;
     (void)options;
     if (!f->series) return;
-    if (!isnan(f->want)) {
-        print_wanted(to, f->choice);
+    if (!isnan(f->want)) { /* the choice, as options of `run` */
+        if (f->choice) fprintf(to, "%s\n", options_of(f->choice, words));
         return;
     }
     print_head(to, scene, f->cost);
@@ -261,7 +248,7 @@ void iso_cost_print(FILE *to, const iso_scene *scene, const void *options, const
     print_cells(to, f->cost, f->series);
     if (f->cost->complete) print_left_out(to, f->cost);
     print_failed(to, f->cost);
-    if (iso_cost_choose_steps(f->cost, NULL, INFINITY)) print_lines(to, f->cost, f->series);
+    if (iso_cost_choose(f->cost, true, NULL, INFINITY)) print_lines(to, f->cost, f->series);
 }
 
 iso_status iso_cost_describe(iso_context *ctx, const iso_scene *scene, const void *options, iso_study_result *result)

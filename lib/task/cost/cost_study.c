@@ -1,11 +1,9 @@
 /* cost_study.c - cost by its name: what is measured, in which order it is shown
  * (study/study.h). */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/context_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/fields_impl.h"
@@ -13,27 +11,17 @@
 
 /* --- cells and series -------------------------------------------------------------------------------------------- */
 
-bool iso_cost_has_failed(const iso_cost_cell *cell)
+bool iso_cost_has_failed(const void *row)
 {
+    const iso_cost_cell *cell = row;
     return cell->status != ISO_OK && cell->status != ISO_STOPPED;
 }
 
-int iso_cost_count(const iso_cost *cost, bool (*is)(const iso_cost_cell *cell))
+int iso_cost_count(const iso_cost *cost, bool (*is)(const void *cell))
 {
     int count = 0;
     for (int i = 0; i < cost->cells; i++) count += is(&cost->cell[i]);
     return count;
-}
-
-const iso_cost_cell *iso_cost_choose_steps(const iso_cost *cost, const iso_cost_series *series, double want)
-{
-    const iso_cost_cell *best = NULL;
-    const int first = series ? series->first : 0, end = series ? first + series->count : cost->cells;
-    for (int i = first; i < end; i++) {
-        const iso_cost_cell *c = &cost->cell[i];
-        if (c->method && iso_cost_reaches(cost, c, want) && (!best || c->total < best->total)) best = c;
-    }
-    return best;
 }
 
 static bool is_faster(const iso_cost *cost, const iso_cost_series *a, const iso_cost_series *b)
@@ -41,8 +29,8 @@ static bool is_faster(const iso_cost *cost, const iso_cost_series *a, const iso_
     static const double wants[] = {1e-9, 1e-6, 1e-3};
     if (!a->method || !b->method) return !a->method && b->method;
     for (int i = 0; i < 3; i++) {
-        const iso_cost_cell *x = iso_cost_choose_steps(cost, a, wants[i]),
-                            *y = iso_cost_choose_steps(cost, b, wants[i]);
+        const iso_cost_cell *x = iso_cost_choose(cost, true, a, wants[i]),
+                            *y = iso_cost_choose(cost, true, b, wants[i]);
         if (x && y && x->total != y->total) return x->total < y->total;
         if (!x != !y) return x != NULL;
     }
@@ -129,7 +117,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     if (!f->cost || (status != ISO_OK && iso_cost_count(f->cost, iso_cost_is_measured) == 0)) return status;
     f->series = sort_series(f->cost);
     if (!f->series) return iso_context_no_memory(ctx, "a cost");
-    if (!isnan(r->want)) f->choice = iso_cost_choose(f->cost, r->want);
+    if (!isnan(r->want)) f->choice = iso_cost_choose(f->cost, false, NULL, r->want);
     const bool lost = !f->cost->complete || iso_cost_count(f->cost, iso_cost_has_failed) > 0;
     result->failed = isnan(r->want) ? lost : !f->choice;
     const iso_status made = put(ctx, &scene, f, &result->table[0]);

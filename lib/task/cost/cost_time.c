@@ -98,8 +98,9 @@ static const double FASTER = 1.05, LOST = 0.1, AT_FLOOR = 2;
 /* A fit uses pairs of points that are at least so many decades apart. */
 static const double APART = 0.3;
 
-bool iso_cost_is_measured(const iso_cost_cell *cell)
+bool iso_cost_is_measured(const void *row)
 {
+    const iso_cost_cell *cell = row;
     return cell->status == ISO_OK && cell->repeats > 0;
 }
 
@@ -109,17 +110,18 @@ static double known_error(const iso_cost *cost, const iso_cost_cell *cell)
     return cell->below ? fmax(cell->error, cost->uncertainty) : cell->error;
 }
 
-bool iso_cost_reaches(const iso_cost *cost, const iso_cost_cell *cell, double want)
+static bool reaches(const iso_cost *cost, const iso_cost_cell *cell, double want)
 {
     return iso_cost_is_measured(cell) && known_error(cost, cell) <= want;
 }
 
-const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want)
+const iso_cost_cell *iso_cost_choose(const iso_cost *cost, bool steps, const iso_cost_series *series, double want)
 {
     const iso_cost_cell *best = NULL;
-    for (int i = 0; i < cost->cells; i++) {
-        const iso_cost_cell *cell = &cost->cell[i];
-        if (iso_cost_reaches(cost, cell, want) && (!best || cell->total < best->total)) best = cell;
+    const int first = series ? series->first : 0, end = series ? first + series->count : cost->cells;
+    for (int i = first; i < end; i++) {
+        const iso_cost_cell *c = &cost->cell[i];
+        if ((c->method || !steps) && reaches(cost, c, want) && (!best || c->total < best->total)) best = c;
     }
     return best;
 }
@@ -129,8 +131,7 @@ static bool is_pareto(const iso_cost *cost, const iso_cost_cell *cell)
     if (!iso_cost_is_measured(cell) || !(cell->error < LOST)) return false;
     for (int i = 0; i < cost->cells; i++) {
         const iso_cost_cell *other = &cost->cell[i];
-        if (iso_cost_reaches(cost, other, known_error(cost, cell)) && FASTER * other->total < cell->total)
-            return false;
+        if (reaches(cost, other, known_error(cost, cell)) && FASTER * other->total < cell->total) return false;
     }
     return true;
 }

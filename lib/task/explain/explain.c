@@ -9,16 +9,23 @@
 #include "exact/exact_impl.h"
 #include "exact/integrability_impl.h"
 #include "instrument/section/section_impl.h"
-#include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/options_impl.h"
 #include "study/study_impl.h"
-#include "task/explain/explain_impl.h"
 #include "task/run.h"
 
 enum { WHY = 512 }; /* room for a message */
 
-/* --- the words -------------------------------------------------------------------------------------------------- */
+/* What is found. */
+typedef struct explanation {
+    const char *backend, *method; /* method NULL: the closed solution */
+    bool twin;
+    const char *integrability;
+    size_t rows;
+    const char *text; /* freed with the rest */
+} explanation;
+
+/* --- the text --------------------------------------------------------------------------------------------------- */
 
 static void explain_ball(FILE *to, const iso_params *p)
 {
@@ -80,11 +87,6 @@ static iso_integrability integrability_of(const iso_scene *scene, const iso_orbi
     return iso_integrability_of(&scene->params, &effects, false); /* the level is an effect here */
 }
 
-static void explain_integrability(FILE *to, iso_integrability i)
-{
-    fprintf(to, "integrability\n  %s: %s\n\n", iso_integrability_name(i.kind), i.why);
-}
-
 /* Says which Poincare section (`isoroll section`) is global for this orbit. */
 static void explain_section(FILE *to, const iso_orbit *orbit)
 {
@@ -115,12 +117,6 @@ static iso_status find_exact(iso_context *ctx, const iso_scene *scene, const int
     *kind = kinds[iso_exact_describe(iso_orbit_exact(orbit)).kind];
     iso_orbit_free(orbit);
     return ISO_OK;
-}
-
-static void explain_exact(FILE *to, const char *kind, const char *why)
-{
-    fprintf(to, "closed solution (--backend exact)\n  %s%s\n\n", kind ? "any time at the same cost: " : "",
-            kind ? kind : why);
 }
 
 /* What matters most: whether there is a twin, whether a closed solution, and what would compute the orbit. */
@@ -254,14 +250,16 @@ static iso_status explain(iso_context *ctx, FILE *to, const iso_scene *scene, co
 {
     char why[WHY] = "";
     const char *kind;
+    const iso_integrability integrable = integrability_of(scene, orbit);
     ISO_TRY(find_exact(ctx, scene, columns, count, &kind, why));
     explain_verdict(to, scene, orbit, kind != NULL);
     explain_ball(to, &scene->params);
     explain_effects(to, orbit);
     explain_map(to, &scene->params, orbit);
-    explain_integrability(to, integrability_of(scene, orbit));
+    fprintf(to, "integrability\n  %s: %s\n\n", iso_integrability_name(integrable.kind), integrable.why);
     explain_section(to, orbit);
-    explain_exact(to, kind, why);
+    fprintf(to, "closed solution (--backend exact)\n  %s%s\n\n", kind ? "any time at the same cost: " : "",
+            kind ? kind : why);
     explain_states(to, scene, orbit, columns, count);
     explain_integrals(to, orbit);
     if (!iso_orbit_exact(orbit)) explain_cost(to, iso_orbit_model(orbit));
@@ -274,15 +272,15 @@ ISO_STUDY_BEGIN(iso_scene_request, (iso_scene_request){.change = ISO_SCENE_AS_IT
 
 /* What is said in words, and what of it other programs ask for. */
 static const iso_field fields[] = {
-    ISO_MEMBER(iso_explanation, "backend", backend, "", "that would compute the orbit"),
-    ISO_MEMBER(iso_explanation, "method", method, "", "of integration; none: the closed solution"),
-    ISO_MEMBER(iso_explanation, "twin", twin, "", "whether the orbit has both models"),
-    ISO_MEMBER(iso_explanation, "integrability", integrability, "",
+    ISO_MEMBER(explanation, "backend", backend, "", "that would compute the orbit"),
+    ISO_MEMBER(explanation, "method", method, "", "of integration; none: the closed solution"),
+    ISO_MEMBER(explanation, "twin", twin, "", "whether the orbit has both models"),
+    ISO_MEMBER(explanation, "integrability", integrability, "",
                "integrable, no meromorphic integral (a theorem of ours), or open"),
-    ISO_MEMBER(iso_explanation, "rows", rows, "", "that would be written"),
+    ISO_MEMBER(explanation, "rows", rows, "", "that would be written"),
     {.name = "text",
      .type = ISO_FIELD_NAME,
-     .offset = offsetof(iso_explanation, text),
+     .offset = offsetof(explanation, text),
      .unit = "",
      .doc = "all, in words"},
     ISO_FIELD_END,
@@ -290,22 +288,22 @@ static const iso_field fields[] = {
 
 static void free_explanation(void *found)
 {
-    free((char *)((iso_explanation *)found)->text);
+    free((char *)((explanation *)found)->text);
     free(found);
 }
 
-static iso_status fill(iso_context *ctx, const iso_scene *scene, iso_explanation *e)
+static iso_status fill(iso_context *ctx, const iso_scene *scene, explanation *e)
 {
     iso_orbit *orbit;
     int columns[ISO_MAX_COLUMNS];
     iso_memory memory;
     const int count = iso_scene_column_list(scene, columns);
     ISO_TRY(iso_scene_orbit(ctx, scene, columns, count, &orbit));
-    *e = (iso_explanation){.backend = iso_backend_name((int)iso_orbit_backend(orbit)),
-                           .method = iso_orbit_exact(orbit) ? NULL : iso_orbit_method(orbit)->name,
-                           .twin = iso_orbit_has_twin(orbit),
-                           .integrability = iso_integrability_name(integrability_of(scene, orbit).kind),
-                           .rows = iso_scene_rows(scene)};
+    *e = (explanation){.backend = iso_backend_name((int)iso_orbit_backend(orbit)),
+                       .method = iso_orbit_exact(orbit) ? NULL : iso_orbit_method(orbit)->name,
+                       .twin = iso_orbit_has_twin(orbit),
+                       .integrability = iso_integrability_name(integrability_of(scene, orbit).kind),
+                       .rows = iso_scene_rows(scene)};
     FILE *to = iso_memory_open(&memory);
     iso_status status = to ? explain(ctx, to, scene, orbit, columns, count) : ISO_OK;
     e->text = iso_memory_close(to, &memory);
@@ -318,7 +316,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
                       iso_study_result *result)
 {
     iso_scene scene = *subject->scene;
-    iso_explanation *e = iso_study_keep(result, calloc(1, sizeof *e), fields, free_explanation);
+    explanation *e = iso_study_keep(result, calloc(1, sizeof *e), fields, free_explanation);
     if (!e) return iso_context_no_memory(ctx, "words");
     ISO_TRY(iso_scene_apply(ctx, &((const iso_scene_request *)options)->change, &scene));
     ISO_TRY(fill(ctx, &scene, e));
@@ -328,7 +326,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
 static void print_explanation(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
 {
     (void)scene, (void)options;
-    fputs(((const iso_explanation *)result->found)->text, to);
+    fputs(((const explanation *)result->found)->text, to);
 }
 
 const iso_study iso_explain_study = {"explain",

@@ -6,7 +6,6 @@
 #include "base/names_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
-#include "task/list/tables.h"
 
 static void list_systems(FILE *to)
 {

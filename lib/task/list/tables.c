@@ -1,6 +1,6 @@
-/* tables.c - the lists of studies (study/study.h) and of the tables that they make (see tables.h). */
-#include "task/list/tables.h"
+/* tables.c - the lists of studies (study/study.h) and of the tables that they make (see list_impl.h). */
 #include "study/fields_impl.h"
+#include "task/list/list_impl.h"
 
 #include <string.h>
 
