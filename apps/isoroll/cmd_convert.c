@@ -20,7 +20,7 @@ enum { ALL_DIGITS = 17 };
 static iso_status check_certified(iso_context *ctx, const options *o)
 {
     const iso_convert_request *r = &o->study;
-    const iso_added *added = &r->added;
+    const iso_file_parameters *added = &r->added;
     const given_option others[] = {{o->digits != ALL_DIGITS, "digits"},
                                    {r->tolerance != ISO_CONVERT_TOLERANCE, "tol"},
                                    {!isnan(added->k), "k"},

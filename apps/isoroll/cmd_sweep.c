@@ -55,7 +55,7 @@ static iso_status shard_of_slurm(iso_context *ctx, iso_sweep_shard *shard)
     if (count < 2 ||
         (from_environment("SLURM_ARRAY_TASK_MAX", NAN, &most) && most != least + (count - 1) * fmax(step, 1)))
         return ISO_FAIL_ARGUMENT(ctx, "shard",
-                                 "--shard slurm: this array has one task or gaps, so it does not tell N: give "
+                                 "--shard slurm: this array has one task or gaps, so N is not known: give "
                                  "--shard slurm/N, N the number of all shards");
     *shard = (iso_sweep_shard){(size_t)index, (size_t)count};
     return ISO_OK;

@@ -5,7 +5,8 @@ iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_recor
 {
     iso_scene scene;
     const iso_status status = o->scene ? iso_scene_load(ctx, o->scene, &scene) : ISO_OK;
-    return status == ISO_OK ? iso_added_params(ctx, &o->added, o->scene ? &scene : NULL, record, params) : status;
+    return status == ISO_OK ? iso_file_parameters_apply(ctx, &o->added, o->scene ? &scene : NULL, record, params)
+                            : status;
 }
 
 iso_status name_the_file(iso_context *ctx, const char *file, iso_status status)

@@ -8,7 +8,7 @@
 typedef struct file_options {
     const char *file;
     const char *scene, *columns; /* NULL: not given */
-    iso_added added;
+    iso_file_parameters added;
 } file_options;
 
 #define FILE_OPTIONS_UNSET                                                                                           \

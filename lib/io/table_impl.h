@@ -42,7 +42,7 @@ struct iso_table_reader {
     iso_table_place at;
     size_t rows;       /* of an HDF5 file; 0: not known */
     double stored;     /* bytes of an HDF5 file */
-    bool forgets;      /* set it to forget words of rows that were read before */
+    bool forgets;      /* true: words of earlier rows are dropped */
     char ignored[512]; /* "": nothing */
     bool passes;       /* over rows of nan, which are counted */
     bool any;          /* a row was read */

@@ -93,8 +93,8 @@ static void jacobian_clocks(const iso_model *m, const double y[], double jac[])
 static bool series_overrun(const iso_model *m)
 {
     iso_formula series = {.overrun = false};
-    for (int i = 0; i < m->followers; i++)
-        if (m->follower[i]->states->kind == ISO_STATE_DERIVED) {
+    for (int i = 0; i < m->with_states_count; i++)
+        if (m->with_states[i]->states->kind == ISO_STATE_DERIVED) {
             iso_effects_record_motion(&m->problem, true, &series);
             break;
         }
@@ -126,7 +126,7 @@ static void choose_equations(iso_model *m)
     else if (motion->torques || m->without_formula || motion->late || m->contact == iso_contact_twisting)
         m->own_rhs = ball_rhs;
     else
-        m->own_rhs = m->followers > 0 ? free_rhs_followed : free_rhs;
+        m->own_rhs = m->with_states_count > 0 ? free_rhs_followed : free_rhs;
 }
 
 const char *iso_model_too_large(const iso_model *m)
@@ -146,11 +146,11 @@ void iso_model_complete(iso_model *m, const iso_system *system, iso_clock clock,
     m->system = system;
     m->clock = clock;
     m->moving = ISO_STATE;
-    m->followers = m->clocks = 0;
+    m->with_states_count = m->clocks = 0;
     memset(m->problem.at, 0, sizeof m->problem.at);
     if (system == &iso_system_ball) m->moving = iso_effects_place_states(&m->problem);
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        if (m->problem.at[e] > 0) m->follower[m->followers++] = iso_effect_list[e];
+        if (m->problem.at[e] > 0) m->with_states[m->with_states_count++] = iso_effect_list[e];
     record(m);
     m->without_formula = system == &iso_system_ball ? iso_effects_without_formula(&m->problem.effects) : NULL;
     m->contact = iso_effects_twist(&m->problem.effects) ? iso_contact_twisting : iso_contact_rigid;
@@ -174,8 +174,8 @@ iso_model iso_model_assemble(const iso_system *system, const iso_problem *proble
 void iso_model_begin(const iso_model *m, const double start[ISO_STATE], double y[])
 {
     copy(start, y, ISO_STATE);
-    for (int i = 0; i < m->followers; i++)
-        if (m->follower[i]->begin) m->follower[i]->begin(&m->problem, y);
+    for (int i = 0; i < m->with_states_count; i++)
+        if (m->with_states[i]->begin) m->with_states[i]->begin(&m->problem, y);
     for (int i = m->moving; i < m->dim; i++) y[i] = 0;
 }
 
@@ -214,7 +214,7 @@ static double restore_states(const iso_problem *f, iso_effect_id id, double y[])
 double iso_model_project(const iso_model *m, double y[])
 {
     double correction = 0;
-    if (m->followers == 0) return m->system->project(&m->problem, y);
+    if (m->with_states_count == 0) return m->system->project(&m->problem, y);
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) /* first: the energy of the ball may ask for the vertical */
         if (m->problem.at[e] > 0) correction = fmax(correction, restore_states(&m->problem, e, y));
     return fmax(correction, m->system->project(&m->problem, y));
@@ -230,8 +230,8 @@ void iso_model_size(const iso_model *m, const double y[], double size[])
         size[3 + i] = length;
     }
     for (int i = ISO_STATE; i < m->moving; i++) size[i] = 1 + fabs(y[i]);
-    for (int i = 0; i < m->followers; i++)
-        if (m->follower[i]->size) m->follower[i]->size(&m->problem, y, size);
+    for (int i = 0; i < m->with_states_count; i++)
+        if (m->with_states[i]->size) m->with_states[i]->size(&m->problem, y, size);
     if (m->clocks == 0) return;
     const double q = m->system->q(&m->problem.p, y, NULL);
     for (int c = 0; c < m->clocks; c++) {

@@ -30,8 +30,8 @@ struct iso_model {
     /* Of what `rhs` is made: the equations in the system's own clock; the contact; the effects with states. */
     void (*own_rhs)(const iso_model *m, const double y[], double dy[]);
     void (*contact)(const iso_problem *f, const double y[], const double T[3], double dy[]);
-    int followers;
-    const iso_effect *follower[ISO_EFFECTS];
+    int with_states_count;
+    const iso_effect *with_states[ISO_EFFECTS];
     const iso_effect *without_formula; /* the first effect whose equations are no formula; NULL: none */
 };
 

@@ -32,7 +32,7 @@ double iso_clock_rate(const iso_params *p, iso_clock clock, double q, double *ex
 
 /* The point on H = 0 again, y = (J^(1/2) omega, gamma) in the ball's time, free of powers of q: for extreme k
  * (point_t.c). Not in the registry. */
-extern const iso_system iso_system_point_t;
+extern const iso_system iso_system_point_in_t;
 
 /* Its states and those of the point, (M, gamma) with M = NN p (18). The two may be one array. */
 void iso_point_to_point_t(const iso_params *p, const double point[ISO_STATE], double y[ISO_STATE]);
@@ -140,7 +140,7 @@ void iso_model_rest(const iso_model *m, double dt, double y[]);
  * turns ever faster. Returns a sentence about it; NULL: it does not. */
 const char *iso_model_speeds_up(const iso_model *m, int direction, const double y0[], const double y[]);
 
-/* Below this speed the answer is NULL, so nobody has to ask; infinite: at every speed. */
+/* iso_model_speeds_up can only answer above this speed; infinite: never. */
 double iso_model_fast(const iso_model *m, int direction, const double y0[]);
 
 /* A motion has ended in y: the text says whether an effect that the scene writes is the reason, and continues the

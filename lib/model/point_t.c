@@ -104,7 +104,7 @@ static const char *const state_names[] = {"p1", "p2", "p3", "gamma1", "gamma2", 
 static const iso_integral integrals[] = {
     {.name = "H", .doc = "p^2/2 - eps k^2/det J", .dimension = {1, 0, 2}, .value = energy}, {0}};
 
-const iso_system iso_system_point_t = {
+const iso_system iso_system_point_in_t = {
     .name = "point",
     .doc = "point on a sphere on the level H = 0, in the ball's time",
     .clock = ISO_CLOCK_T,

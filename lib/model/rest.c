@@ -27,8 +27,8 @@ void iso_model_rest(const iso_model *m, double dt, double y[])
 {
     double f[ISO_MAX_STATE];
     for (int i = 0; i < 3; i++) y[i] = 0;
-    for (int i = 0; i < m->followers; i++)
-        if (iso_effect_is_derived(m->follower[i])) m->follower[i]->begin(&m->problem, y);
+    for (int i = 0; i < m->with_states_count; i++)
+        if (iso_effect_is_derived(m->with_states[i])) m->with_states[i]->begin(&m->problem, y);
     m->rhs(m, y, f);
     for (int i = 0; i < m->dim; i++) y[i] += dt * f[i];
 }
@@ -91,8 +91,8 @@ static double broken(const iso_model *m, const double y[])
     double restored[ISO_MAX_STATE];
     if (!iso_effects_twist(&m->problem.effects)) return fabs(dot(y, y + 3)) / speed;
     copy(y, restored, m->dim);
-    for (int i = 0; i < m->followers; i++)
-        if (m->follower[i]->restore) m->follower[i]->restore(&m->problem, restored);
+    for (int i = 0; i < m->with_states_count; i++)
+        if (m->with_states[i]->restore) m->with_states[i]->restore(&m->problem, restored);
     return fabs(dot(restored, y + 3) - dot(y, y + 3)) / speed;
 }
 

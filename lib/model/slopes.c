@@ -16,7 +16,7 @@ enum { KEPT = 4 }; /* two more than the highest order, 1, and 0 */
 
 bool iso_system_has_recurrences(const iso_system *s)
 {
-    return s == &iso_system_ball || s == &iso_system_point || s == &iso_system_point_t;
+    return s == &iso_system_ball || s == &iso_system_point || s == &iso_system_point_in_t;
 }
 
 static void call_system(series *S, const iso_model *m)
@@ -25,7 +25,7 @@ static void call_system(series *S, const iso_model *m)
     S->formula = NULL;
     if (m->system == &iso_system_ball) {
         set_ball_recurrences(S, iso_effects_twist(&f->effects), f->motion.lines > 0 ? &f->motion : NULL, NULL);
-    } else if (m->system == &iso_system_point_t) {
+    } else if (m->system == &iso_system_point_in_t) {
         set_recurrences(S, 1, (recurrences){{point_p}});
     } else {
         S->formula = f->energy_formula.lines > 0 ? &f->energy_formula : NULL;
@@ -39,7 +39,7 @@ static void call_system(series *S, const iso_model *m)
 static void begin(series *S, const iso_model *m)
 {
     const iso_params *p = &m->problem.p;
-    const bool is_t = m->system == &iso_system_point_t;
+    const bool is_t = m->system == &iso_system_point_in_t;
     call_system(S, m);
     for (int i = 0; i < KEPT; i++) S->count[i] = S->inverse[i] = broadcast(1); /* in place of n and 1/n: see above */
     for (int lane = 0; lane < LANES; lane++) set_ball(S, lane, p, S->formula);

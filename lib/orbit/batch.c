@@ -27,7 +27,7 @@ typedef struct batch {
     const double *times;
     iso_sample *samples; /* NULL: they are only on the way to the table */
     iso_status *status;
-    const iso_lane_code *code;
+    const iso_lane_build *code;
     const iso_scene *const *scene;
     size_t scenes;
     const double *k, *J, *start; /* in place of the scenes'; NULL: theirs */
@@ -49,7 +49,7 @@ _Static_assert((int)ISO_MAX_STATE <= (int)ISO_TRAJECTORY_COLUMNS, "a sample has 
 
 const char *iso_batch_vectors(int i, int *lanes)
 {
-    for (const iso_lane_code *const *code = iso_lane_codes; *code; code++) {
+    for (const iso_lane_build *const *code = iso_lane_codes; *code; code++) {
         if (!(*code)->runs_here() || i-- > 0) continue;
         if (lanes) *lanes = (*code)->lanes;
         return (*code)->name;
@@ -201,8 +201,8 @@ static bool solve_chunk(iso_pool_worker *w, void *data, size_t first, size_t cou
 
 /* --- all -------------------------------------------------------------------------------------------------------- */
 
-static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_lane_code *code, const double times[],
-                        size_t rows)
+static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_lane_build *code,
+                        const double times[], size_t rows)
 {
     if (o->backend == ISO_BACKEND_EXACT)
         return ISO_FAIL_ARGUMENT(ctx, "backend",

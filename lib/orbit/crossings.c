@@ -57,7 +57,7 @@ iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[]
     if (options) own = *options;
     ISO_TRY(iso_crossings_check(ctx, &own));
     iso_crossings *c = calloc(1, sizeof *c);
-    iso_crossed *each = calloc(count + 1, sizeof *each);
+    iso_crossing_orbit *each = calloc(count + 1, sizeof *each);
     if (!c || !each) {
         free(c);
         free(each);
@@ -95,17 +95,17 @@ static void blank(const iso_crossings *c, const iso_crossings_task *t)
     }
 }
 
-typedef struct loners {
+typedef struct singles {
     iso_crossings *c;
     const iso_crossings_task *task;
     const bool *taken;
-} loners;
+} singles;
 
-static void follow_alone(iso_pool_worker *w, const loners *l, size_t i)
+static void follow_single(iso_pool_worker *w, const singles *l, size_t i)
 {
     const iso_crossings_task *t = l->task;
     iso_crossings *c = l->c;
-    iso_crossed *o = &c->orbit[i];
+    iso_crossing_orbit *o = &c->orbit[i];
     iso_sample *sample = t->sample ? t->sample + t->stride * i : NULL;
     if (!o->ctx) o->ctx = iso_context_create();
     if (!o->ctx) {
@@ -121,12 +121,12 @@ static void follow_alone(iso_pool_worker *w, const loners *l, size_t i)
 
 static bool follow_chunk(iso_pool_worker *w, void *data, size_t first, size_t count)
 {
-    const loners *l = data;
+    const singles *l = data;
     const iso_crossings_task *t = l->task;
     for (size_t i = first; i < first + count; i++) {
         if (l->taken[i] || (t->wanted && !t->wanted[i]) || l->c->orbit[i].status != ISO_OK) continue;
         t->status[i] = ISO_STOPPED;
-        if (iso_pool_goes_on(w)) follow_alone(w, l, i);
+        if (iso_pool_goes_on(w)) follow_single(w, l, i);
     }
     return true;
 }
@@ -134,7 +134,7 @@ static bool follow_chunk(iso_pool_worker *w, void *data, size_t first, size_t co
 /* The orbits that lanes have not taken, each by itself, on all threads. */
 static iso_status one_by_one(iso_crossings *c, const iso_crossings_task *t, const bool taken[])
 {
-    loners l = {c, t, taken};
+    singles l = {c, t, taken};
     iso_pool pool = {.what = "orbit", .count = c->count, .chunk = 1, .solve = follow_chunk, .data = &l};
     size_t alone = 0;
     for (size_t i = 0; i < c->count; i++) alone += !taken[i];
@@ -144,7 +144,7 @@ static iso_status one_by_one(iso_crossings *c, const iso_crossings_task *t, cons
 
 const char *iso_crossings_why(const iso_crossings *c, size_t i)
 {
-    const iso_crossed *o = &c->orbit[i];
+    const iso_crossing_orbit *o = &c->orbit[i];
     return o->why ? o->why : iso_status_text(o->status);
 }
 
@@ -152,7 +152,7 @@ const char *iso_crossings_why(const iso_crossings *c, size_t i)
 static iso_status tell_first(const iso_crossings *c, const iso_crossings_task *t)
 {
     for (size_t i = 0; i < c->count; i++) {
-        const iso_crossed *o = &c->orbit[i];
+        const iso_crossing_orbit *o = &c->orbit[i];
         if (o->status == ISO_OK || (t->wanted && !t->wanted[i])) continue;
         return iso_context_fail(c->ctx, o->status, o->about, "orbit %zu: %s", i, iso_crossings_why(c, i));
     }

@@ -49,7 +49,7 @@ static iso_status refuse_deviations(const iso_crossings *c, size_t i)
 
 static iso_status begin(iso_crossings *c, size_t i)
 {
-    iso_crossed *o = &c->orbit[i];
+    iso_crossing_orbit *o = &c->orbit[i];
     iso_sample start;
     if (c->options.deviations) return refuse_deviations(c, i);
     ISO_TRY(create(c, i, &o->alone));
@@ -70,7 +70,7 @@ static iso_status begin(iso_crossings *c, size_t i)
  * the point: gamma), or those of the column */
 typedef struct watch {
     const iso_crossings *c;
-    const iso_crossed *o;
+    const iso_crossing_orbit *o;
     double (*seen)[2];
 } watch;
 
@@ -100,7 +100,7 @@ static double turn_of(const iso_orbit *orbit)
 }
 
 /* The orbit does not come to the section: nothing has failed, another section is wanted. The message names one. */
-static iso_status refuse_section(const iso_crossings *c, const iso_crossed *o, double (*seen)[2])
+static iso_status refuse_section(const iso_crossings *c, const iso_crossing_orbit *o, double (*seen)[2])
 {
     const bool axis = c->options.kind == ISO_SECTION_AXIS;
     const int at = axis ? o->axis : 0;
@@ -128,7 +128,7 @@ static iso_status refuse_section(const iso_crossings *c, const iso_crossed *o, d
         advice);
 }
 
-static iso_status next_event(iso_crossings *c, iso_crossed *o, iso_sample *sample)
+static iso_status next_event(iso_crossings *c, iso_crossing_orbit *o, iso_sample *sample)
 {
     double seen[3][2] = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
     const watch w = {c, o, seen};
@@ -138,7 +138,7 @@ static iso_status next_event(iso_crossings *c, iso_crossed *o, iso_sample *sampl
     return status != ISO_OK || found ? status : refuse_section(c, o, seen);
 }
 
-static iso_status next_sample(iso_crossings *c, iso_crossed *o, iso_sample *sample)
+static iso_status next_sample(iso_crossings *c, iso_crossing_orbit *o, iso_sample *sample)
 {
     const long most = c->options.max_steps, so_far = iso_orbit_statistics(o->alone).steps;
     if (most > 0) iso_orbit_allow_steps(o->alone, so_far + most);
@@ -147,7 +147,7 @@ static iso_status next_sample(iso_crossings *c, iso_crossed *o, iso_sample *samp
     return next_event(c, o, sample);
 }
 
-static void fill(const iso_crossed *o, const iso_sample *sample, iso_crossing *to)
+static void fill(const iso_crossing_orbit *o, const iso_sample *sample, iso_crossing *to)
 {
     iso_crossing_blank(to);
     for (int k = 0; k < ISO_CLOCKS; k++) to->clock[k] = sample->clock[k];
@@ -160,14 +160,15 @@ static void fill(const iso_crossed *o, const iso_sample *sample, iso_crossing *t
 
 /* Whether this first event is the start itself, up to rounding. An orbit that starts on the section crosses it again
  * only after a full oscillation of n_a. */
-static bool is_start(const iso_crossed *o, double time, double s)
+static bool is_start(const iso_crossing_orbit *o, double time, double s)
 {
     if (!o->begins_on_it || o->count > 0) return false;
     return isnan(o->bound[0]) || isnan(s) ? time < 1e-6 * turn_of(o->alone) : s < o->bound[0] / 4;
 }
 
 /* One crossing. *counts false: it is the start. */
-static iso_status step(iso_crossings *c, iso_crossed *o, iso_crossing *crossing, iso_sample *sample, bool *counts)
+static iso_status step(iso_crossings *c, iso_crossing_orbit *o, iso_crossing *crossing, iso_sample *sample,
+                       bool *counts)
 {
     iso_sample here;
     ISO_TRY(next_sample(c, o, &here));
@@ -186,7 +187,7 @@ static iso_status step(iso_crossings *c, iso_crossed *o, iso_crossing *crossing,
 iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_crossing crossing[],
                                   iso_sample sample[], size_t *done)
 {
-    iso_crossed *o = &c->orbit[i];
+    iso_crossing_orbit *o = &c->orbit[i];
     iso_status status = o->alone ? ISO_OK : begin(c, i);
     while (status == ISO_OK && *done < each) {
         bool counts;

@@ -73,7 +73,7 @@ iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, c
 }
 
 /* Only where nothing acts but a level, orbits obey gamma_a'' = -W^2 gamma_a. */
-void iso_crossings_find_section(const iso_crossings *c, const iso_orbit *orbit, iso_crossed *o)
+void iso_crossings_find_section(const iso_crossings *c, const iso_orbit *orbit, iso_crossing_orbit *o)
 {
     const iso_point_motion motion = iso_orbit_motion(orbit);
     double W[2];
@@ -142,8 +142,8 @@ bool iso_crossings_apart(const double bound[2], bool least, double apart, double
 
 /* By Sturm's comparison. A larger distance means a skipped crossing, a smaller one a crossing found twice. A start on
  * the section is on it up to ISO_ON_SECTION. */
-iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,
-                              double s)
+iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossing_orbit *o,
+                              const iso_orbit *orbit, double s)
 {
     const bool least = o->count > 0 || (o->begins_on_it && o->upwards);
     const double loose = o->count == 0 ? ISO_ON_SECTION : 0;
@@ -221,7 +221,7 @@ iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int ax
 
 void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_status status)
 {
-    iso_crossed *o = &c->orbit[i];
+    iso_crossing_orbit *o = &c->orbit[i];
     if (status == ISO_OK || status == ISO_STOPPED) return;
     o->status = status;
     o->why = strdup(iso_context_message(ctx));

@@ -14,7 +14,7 @@
 #define ISO_ON_SECTION 1e-8 /* how far from it, in radians of the oscillation of n_a, a start is on the section */
 
 /* One orbit: where it is, and the bounds between its crossings. In own units of the orbit. */
-typedef struct iso_crossed {
+typedef struct iso_crossing_orbit {
     iso_orbit *alone; /* the orbit, if it is followed alone; NULL: not begun                                     */
     iso_context *ctx; /* a context of its own, so that any thread can go on with it */
     struct iso_crossings_lane *lane; /* the orbit, if it is followed in lanes; NULL: not begun                    */
@@ -27,14 +27,14 @@ typedef struct iso_crossed {
     iso_status status; /* the failure that ended the orbit, or ISO_OK */
     char *why;         /* the message of this failure */
     char about[32];
-} iso_crossed;
+} iso_crossing_orbit;
 
 struct iso_crossings {
     iso_context *ctx;
     const iso_batch_orbit *orbits;
     size_t count;
     iso_crossings_options options;
-    iso_crossed *orbit; /* of each */
+    iso_crossing_orbit *orbit; /* of each */
 };
 
 /* A call of iso_crossings_go. */
@@ -103,11 +103,11 @@ iso_status iso_crossings_check_axis(iso_context *ctx, int axis);
 iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis);
 
 /* Sets o->axis and o->bound of an orbit that is prepared; NaN if there are no bounds. */
-void iso_crossings_find_section(const iso_crossings *c, const iso_orbit *orbit, iso_crossed *o);
+void iso_crossings_find_section(const iso_crossings *c, const iso_orbit *orbit, iso_crossing_orbit *o);
 
 /* Checks the crossing at s against the bounds. Errors: ISO_NUMERICAL. */
-iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,
-                              double s);
+iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossing_orbit *o,
+                              const iso_orbit *orbit, double s);
 
 /* The directions of (M, gamma) at a state of the model; the lengths differ. point and y may be one array. */
 void iso_crossings_point(const iso_params *p, iso_model_kind model, const double y[ISO_STATE],

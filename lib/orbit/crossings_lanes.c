@@ -25,20 +25,20 @@ struct iso_crossings_lane {
     bool has_clocks;
     double begin[2][ISO_DEVIATIONS]; /* (dl, dx) of the deviations at the start, one in each column */
     bool has_begin;
-    _Alignas(max_align_t) unsigned char saved[]; /* iso_lane_code.saved bytes */
+    _Alignas(max_align_t) unsigned char saved[]; /* iso_lane_build.saved bytes */
 };
 
 typedef struct follower {
     iso_crossings *c;
     const iso_crossings_task *task;
-    const iso_lane_code *code;
+    const iso_lane_build *code;
     bool *taken;
 } follower;
 
 /* --- preparing -------------------------------------------------------------------------------------------------- */
 
 /* The bounds of the search for crossings, in the variable of the series. */
-static void set_search(struct iso_crossings_lane *lane, const iso_crossed *o)
+static void set_search(struct iso_crossings_lane *lane, const iso_crossing_orbit *o)
 {
     const iso_orbit *orbit = &lane->orbit;
     const iso_params *p = &orbit->units.own;
@@ -70,7 +70,7 @@ static iso_status prepare(iso_pool_worker *w, const iso_crossings *c, size_t i, 
 }
 
 /* Whether lanes can follow the orbit: on a global section, or in equal steps of a clock. */
-static bool suits(const iso_crossings *c, const struct iso_crossings_lane *lane, const iso_crossed *o)
+static bool suits(const iso_crossings *c, const struct iso_crossings_lane *lane, const iso_crossing_orbit *o)
 {
     if (!iso_lanes_suit(&lane->orbit) || c->options.kind == ISO_SECTION_COLUMN) return false;
     if (c->options.kind == ISO_SECTION_CLOCK) return true;
@@ -81,7 +81,7 @@ static bool starts_on_section(const iso_orbit *orbit, const double y[], int axis
 {
     const iso_params *own = &orbit->units.own;
     double point[ISO_STATE];
-    if (orbit->system != &iso_system_point_t)
+    if (orbit->system != &iso_system_point_in_t)
         return iso_crossings_on_section(own, iso_crossings_model(orbit), y, axis, upwards);
     iso_point_t_to_point(own, y, point); /* for k < 0 the signs of M and y differ */
     return iso_crossings_on_section(own, ISO_POINT, point, axis, upwards);
@@ -91,7 +91,7 @@ static bool starts_on_section(const iso_orbit *orbit, const double y[], int axis
 static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
 {
     iso_crossings *c = f->c;
-    iso_crossed *o = &c->orbit[i];
+    iso_crossing_orbit *o = &c->orbit[i];
     struct iso_crossings_lane *lane = calloc(1, sizeof *lane + f->code->saved);
     if (!lane) return iso_context_no_memory(w->ctx, "an orbit");
     iso_status status = prepare(w, c, i, lane);
@@ -122,7 +122,7 @@ static void to_point(const iso_orbit *orbit, const double y[], const double d[],
     const bool ball = orbit->system == &iso_system_ball;
     double factor = 1, slope = 0;
     if (ball) iso_ball_to_point(p, y, point);
-    if (orbit->system == &iso_system_point_t) iso_point_t_to_point(p, y, point);
+    if (orbit->system == &iso_system_point_in_t) iso_point_t_to_point(p, y, point);
     if (orbit->system == &iso_system_point) copy(y, point, ISO_STATE);
     const double *gamma = point + 3, q = dot_diag(gamma, p->J, gamma);
     const double NN = sqrt(p->det_J) / p->k * pow(q, -1 / (2 * p->k));
@@ -181,7 +181,7 @@ static double area_across(const iso_orbit *orbit, const double y[], double d[][I
     return dot(part[0], of_12) / part[0][1];
 }
 
-static void tell_deviations(struct iso_crossings_lane *lane, const iso_crossed *o, iso_lane_event *e,
+static void tell_deviations(struct iso_crossings_lane *lane, const iso_crossing_orbit *o, iso_lane_event *e,
                             iso_crossing *to)
 {
     const iso_orbit *orbit = &lane->orbit;
@@ -211,7 +211,7 @@ static double clock_of(const iso_orbit *orbit, iso_clock clock, const double y[]
 static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, const double y[], double time,
                        iso_lane_event *e, iso_crossing *to, iso_sample *sample)
 {
-    iso_crossed *o = &c->orbit[i];
+    iso_crossing_orbit *o = &c->orbit[i];
     struct iso_crossings_lane *lane = o->lane;
     const iso_orbit *orbit = &lane->orbit;
     const iso_params *own = &orbit->units.own;
@@ -221,8 +221,8 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
     iso_crossing_blank(to);
     for (iso_clock k = 0; k < ISO_CLOCKS; k++) to->clock[k] = clock_of(orbit, k, y, time) * orbit->unit_clock[k];
     if (o->axis >= 0) {
-        orbit->system == &iso_system_point_t ? iso_point_t_to_point(own, y, point)
-                                             : iso_crossings_point(own, iso_crossings_model(orbit), y, point);
+        orbit->system == &iso_system_point_in_t ? iso_point_t_to_point(own, y, point)
+                                                : iso_crossings_point(own, iso_crossings_model(orbit), y, point);
         iso_section_chart(o->axis, point, &to->l, &to->x);
     }
     if (e) tell_deviations(lane, o, e, to);
@@ -268,7 +268,7 @@ static bool make_room(const follower *f, size_t orbits, room *r)
 static iso_lane_job *set_job(const follower *f, size_t i, size_t at, const room *r, size_t rows)
 {
     const iso_crossings_options *o = &f->c->options;
-    iso_crossed *orbit = &f->c->orbit[i];
+    iso_crossing_orbit *orbit = &f->c->orbit[i];
     iso_lane_job *job = &orbit->lane->job;
     double *times = r->times + at * r->rows;
     job->rows = rows;
@@ -334,7 +334,7 @@ static bool solve_chunk(iso_pool_worker *w, void *data, size_t first, size_t cou
     const iso_crossings_task *t = f->task;
     size_t waiting = 0;
     for (size_t i = first; i < first + count && iso_pool_goes_on(w); i++) {
-        iso_crossed *o = &f->c->orbit[i];
+        iso_crossing_orbit *o = &f->c->orbit[i];
         if ((t->wanted && !t->wanted[i]) || o->status != ISO_OK || o->alone) continue;
         const iso_status status = o->lane ? ISO_OK : begin(w, f, i);
         f->taken[i] = status != ISO_OK || o->lane;

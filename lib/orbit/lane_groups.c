@@ -34,7 +34,7 @@ iso_status iso_lanes_check(iso_context *ctx, int threads, const char *vectors, b
     return ISO_FAIL_ARGUMENT(ctx, "vectors", "this processor, or this build, has no vectors '%s'", vectors);
 }
 
-bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_code *code, double tolerance, long max_steps,
+bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_build *code, double tolerance, long max_steps,
                          iso_lane_job *jobs[], size_t count)
 {
     const iso_lane_options lanes = {tolerance, max_steps, iso_pool_goes_on, w};

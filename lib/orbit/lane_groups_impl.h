@@ -11,7 +11,7 @@
 iso_status iso_lanes_check(iso_context *ctx, int threads, const char *vectors, bool found);
 
 /* Solves jobs in lanes, in groups of jobs that can share the lanes. Overwrites jobs[]. False: no memory. */
-bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_code *code, double tolerance, long max_steps,
+bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_build *code, double tolerance, long max_steps,
                          iso_lane_job *jobs[], size_t count);
 
 /* Whether lanes can follow an orbit. Lanes compute Taylor series, so the ball must move, must not be stiff, and must

@@ -30,7 +30,7 @@ iso_status iso_orbit_no_point(iso_context *ctx, const iso_effect *breaking);
 iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE]);
 
 /* Makes an orbit empty, to be prepared: but not the texts of effects, and of formulas only what says how long they are.
- * The rest is 16 kB, which take time where many orbits are prepared. */
+ * Clearing all 16 kB would cost time in batches. */
 void iso_orbit_clear(iso_orbit *o);
 
 /* All of an orbit but the integrator: o->ctx and o->options say what is asked for; gives the start of its model.

@@ -222,7 +222,7 @@ static const iso_system *choose_system(const iso_orbit *o)
     const bool bound = o->options.backend == ISO_BACKEND_EXACT || (method && method->system);
     if (o->options.backend == ISO_BACKEND_BALL) return &iso_system_ball;
     if (bound || o->level != 0 || iso_effects_have_image(&o->effects) || p->k == -1) return &iso_system_point;
-    return iso_params_steep(p) ? &iso_system_point_t : &iso_system_point;
+    return iso_params_steep(p) ? &iso_system_point_in_t : &iso_system_point;
 }
 
 /* (24) has q^(1 + 1/|k|) wherever the orbit may go: q lies between the least and the largest moment of inertia. */
@@ -257,7 +257,7 @@ static void to_system(const iso_orbit *o, iso_model_kind model, double y[ISO_STA
     const bool ball = model == ISO_BALL;
     if (o->system == &iso_system_ball && !ball) iso_point_to_ball(own, y, y);
     if (o->system == &iso_system_point && ball) iso_ball_to_point(own, y, y);
-    if (o->system == &iso_system_point_t) (ball ? iso_ball_to_point_t : iso_point_to_point_t)(own, y, y);
+    if (o->system == &iso_system_point_in_t) (ball ? iso_ball_to_point_t : iso_point_to_point_t)(own, y, y);
 }
 
 /* Whether c of a level is a double in the caller's units. */

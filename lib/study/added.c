@@ -39,8 +39,8 @@ static iso_status set_scene(iso_context *ctx, const iso_scene *scene, iso_record
     return status;
 }
 
-iso_status iso_added_params(iso_context *ctx, const iso_added *o, const iso_scene *scene, iso_record *record,
-                            iso_params *params)
+iso_status iso_file_parameters_apply(iso_context *ctx, const iso_file_parameters *o, const iso_scene *scene,
+                                     iso_record *record, iso_params *params)
 {
     if (!isnan(o->h) && !isnan(o->eps))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps",

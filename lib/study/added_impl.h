@@ -6,17 +6,17 @@
 
 #include "study/options_impl.h"
 
-typedef struct iso_added {
+typedef struct iso_file_parameters {
     double k, J[3], eps, h; /* NAN: not given                        */
     double row_tolerance;   /* how far a row may be from a state */
-} iso_added;
+} iso_file_parameters;
 
 #define ISO_ADDED_UNSET                                                                                              \
     {                                                                                                                \
         .k = NAN, .J = {NAN, NAN, NAN}, .eps = NAN, .h = NAN, .row_tolerance = ISO_ROW_TOLERANCE                     \
     }
 
-/* Their rows, the last one by itself; `from` is the place of an iso_added in the struct `type`. */
+/* Their rows, the last one by itself; `from` is the place of an iso_file_parameters in the struct `type`. */
 #define ISO_OPTIONS_ADDED(type, from)                                                                                \
     ISO_OPTION("k", "K", "a number", "geometry number k, if the file does not say it", iso_set_number, type,         \
                from.k),                                                                                              \
@@ -34,8 +34,8 @@ typedef struct iso_added {
  * the effects that act and a point's eps, where the record does not. Then reads the parameters from the lines.
  * Errors: ISO_BAD_INPUT about a line that says something else; ISO_BAD_ARGUMENT about "eps" beside h; those of
  * iso_record_params. */
-iso_status iso_added_params(iso_context *ctx, const iso_added *added, const iso_scene *scene, iso_record *record,
-                            iso_params *params);
+iso_status iso_file_parameters_apply(iso_context *ctx, const iso_file_parameters *added, const iso_scene *scene,
+                                     iso_record *record, iso_params *params);
 
 /* The energy h in own units that the line "h" states, or "eps" by its coupling. NAN: there is no such line, or *status
  * is an error. */

@@ -26,7 +26,7 @@ iso_status iso_level_problem(iso_context *ctx, const iso_scene *scene, const cha
     return ISO_OK;
 }
 
-iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on)
+iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_motion_level *on)
 {
     const iso_effects effects = iso_scene_acting(scene);
     iso_orbit *orbit;
@@ -45,7 +45,7 @@ iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *
 
 iso_status iso_level_of_scene(iso_context *ctx, const iso_scene *scene, const char *what, double *level)
 {
-    iso_on_level on;
+    iso_motion_level on;
     const iso_effects effects = iso_scene_acting(scene);
     const bool plain = scene->start.model == ISO_BALL && !iso_effects_have_level(&effects);
     *level = 0;

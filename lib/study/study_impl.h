@@ -63,19 +63,19 @@ iso_status iso_refuse_starts(iso_context *ctx, const iso_orbit *orbit, const iso
 /* --- the level of a scene (level.c) ----------------------------------------------------------------------------- */
 
 /* A scene's motion with what fixes it. */
-typedef struct iso_on_level {
+typedef struct iso_motion_level {
     iso_units units;
     double h;      /* of the ball, own units                */
     double energy; /* H of the point for eps = 1, own units */
     double H;      /* the same level in the scene's units   */
-} iso_on_level;
+} iso_motion_level;
 
 /* The problem of a scene's point in own units: params, eps of any sign, H, effects. eps is 0 for a ball at rest. what:
  * as in "integrals are sought". Errors: those of iso_refuse_off_chart and iso_orbit_create. */
 iso_status iso_level_problem(iso_context *ctx, const iso_scene *scene, const char *what, iso_problem *problem);
 
 /* Errors: those of iso_refuse_beyond_level, iso_refuse_coupling and iso_orbit_create. */
-iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on);
+iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_motion_level *on);
 
 /* --- the errors of error.h (error.c) ---------------------------------------------------------------------------- */
 

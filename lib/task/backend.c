@@ -37,7 +37,7 @@ static double radians_to(const iso_scene *scene, double time)
 }
 
 /* closed: the closed solution may be taken */
-static choice choose(const iso_scene *scene, const iso_effects *effects, const iso_questions *q, bool closed)
+static choice choose(const iso_scene *scene, const iso_effects *effects, const iso_run_extent *q, bool closed)
 {
     const double radians = radians_to(scene, q->farthest), rows = (double)q->rows, k = fabs(scene->params.k);
     if (scene->backend != ISO_BACKEND_AUTO) return (choice){scene->backend, "asked for by name"};
@@ -59,7 +59,7 @@ static choice choose(const iso_scene *scene, const iso_effects *effects, const i
 
 /* The closed solution may refuse a far time. */
 static iso_status try_orbit(iso_context *ctx, const iso_scene *scene, const iso_orbit_options *how,
-                            const iso_questions *q, iso_orbit **orbit)
+                            const iso_run_extent *q, iso_orbit **orbit)
 {
     iso_sample sample;
     iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, how, orbit);
@@ -72,7 +72,7 @@ static iso_status try_orbit(iso_context *ctx, const iso_scene *scene, const iso_
 }
 
 iso_status iso_backend_open(iso_context *ctx, const iso_scene *scene, const iso_orbit_options *how,
-                            const iso_questions *q, iso_orbit **orbit)
+                            const iso_run_extent *q, iso_orbit **orbit)
 {
     iso_orbit_options o = *how;
     if (o.backend != ISO_BACKEND_AUTO) return iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
@@ -91,7 +91,7 @@ const char *iso_scene_why_backend(const iso_scene *scene, const iso_orbit *orbit
 {
     const iso_backend taken = iso_orbit_backend(orbit);
     const iso_effects effects = iso_orbit_effects(orbit);
-    const iso_questions q = {.rows = iso_scene_rows(scene), .farthest = scene->end};
+    const iso_run_extent q = {.rows = iso_scene_rows(scene), .farthest = scene->end};
     choice c = choose(scene, &effects, &q, true);
     if (c.backend == ISO_BACKEND_EXACT && taken != c.backend) c = choose(scene, &effects, &q, false);
     if (c.backend == ISO_BACKEND_POINT && taken != c.backend)

@@ -61,7 +61,7 @@ iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int c
 {
     iso_effects effects;
     const iso_orbit_options o = orbit_options(scene, columns, count, &effects);
-    const iso_questions q = {.rows = iso_scene_rows(scene), .farthest = scene->end};
+    const iso_run_extent q = {.rows = iso_scene_rows(scene), .farthest = scene->end};
     return iso_backend_open(ctx, scene, &o, &q, orbit);
 }
 
@@ -307,7 +307,7 @@ static iso_status open_orbit(runner *r)
     r->how = orbit_options(r->scene, r->columns, r->count, &r->effects);
     r->how.memory = 0; /* times are put in order */
     r->result->clock = r->how.clock;
-    const iso_questions q = {.rows = r->result->asked, .farthest = r->farthest};
+    const iso_run_extent q = {.rows = r->result->asked, .farthest = r->farthest};
     ISO_TRY(iso_backend_open(r->ctx, r->scene, &r->how, &q, &r->orbit));
     r->result->backend = r->how.backend = iso_orbit_backend(r->orbit);
     r->result->method = iso_orbit_method(r->orbit);

@@ -10,15 +10,15 @@
 /* --- which backend `auto` means for the questions of a run (backend.c) ------------------------------------------ */
 
 /* What an orbit is asked for. */
-typedef struct iso_questions {
+typedef struct iso_run_extent {
     size_t rows;     /* this many times, ...                      */
     double farthest; /* ... this one the farthest, caller's units */
-} iso_questions;
+} iso_run_extent;
 
 /* The orbit, as `how` says. ISO_BACKEND_AUTO there is the cheapest backend for the questions. If it has no such
  * orbit, it is what iso_orbit_create takes for ISO_BACKEND_AUTO. Errors: those of iso_orbit_create. */
 iso_status iso_backend_open(iso_context *ctx, const iso_scene *scene, const iso_orbit_options *how,
-                            const iso_questions *questions, iso_orbit **orbit);
+                            const iso_run_extent *questions, iso_orbit **orbit);
 
 /* --- the order in which an orbit is followed to times that come in any order (run.c) ---------------------------- */
 

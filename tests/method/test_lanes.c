@@ -104,7 +104,7 @@ static void note_member(const member *m, int code, const iso_lane_job *job)
  * then each by itself. */
 static void solve_group(member *group[], int size, int code)
 {
-    const iso_lane_code *lanes = iso_lane_codes[code];
+    const iso_lane_build *lanes = iso_lane_codes[code];
     static iso_lane_job full[MOST], last[MOST], none[MOST / 8];
     static double one[MOST][1][ISO_MAX_STATE], nowhere[MOST / 8][ROWS][ISO_MAX_STATE];
     iso_lane_job *list[3 * MOST];

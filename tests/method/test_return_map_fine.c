@@ -10,9 +10,9 @@
 #include "reference.h"
 
 #ifdef ISO_TAYLOR_HAS_QUAD
-static const iso_return_code *const codes[] = {&iso_return_extended, &iso_return_quad};
+static const iso_return_build *const codes[] = {&iso_return_extended, &iso_return_quad};
 #else
-static const iso_return_code *const codes[] = {&iso_return_extended};
+static const iso_return_build *const codes[] = {&iso_return_extended};
 #endif
 enum { CODES = sizeof codes / sizeof *codes };
 
@@ -35,14 +35,14 @@ static void prepare(double k, const double J[3])
     zeros = iso_crossings_zeros(iso_free_point(&problem.p, 1), axis, k == -1 ? ISO_CLOCK_S : ISO_CLOCK_T);
 }
 
-static iso_return go(const iso_return_code *code, bool half, const iso_fine from[2])
+static iso_return go(const iso_return_build *code, bool half, const iso_fine from[2])
 {
     iso_return r = {.from = {from[0], from[1]}, .start = half ? ISO_FROM_BELOW : ISO_FROM_CHART};
     if (!code->go(&model, axis, zeros, code == codes[0] ? 1e-15 : 1e-17, &r)) gsl_test(1, "no return");
     return r;
 }
 
-static iso_return go_from(const iso_return_code *code, bool half, double l, double x)
+static iso_return go_from(const iso_return_build *code, bool half, double l, double x)
 {
     return go(code, half, (const iso_fine[2]){{l, 0}, {x, 0}});
 }
@@ -126,7 +126,7 @@ typedef struct worst {
 
 /* The determinant, to what doubles hold; S1 (l, x) -> (l, -x) is a reversor: f S1 f S1 = 1; two halves
  * are a return. */
-static void check_laws(const iso_return_code *code, double l, double x, worst *w)
+static void check_laws(const iso_return_build *code, double l, double x, worst *w)
 {
     const iso_return f = go_from(code, false, l, x);
     const double unit = code->error * size_of(&f);

@@ -15,7 +15,7 @@ static int each; /* of so many cases one is tested: all take an hour */
 typedef struct flow {
     const orbit *o;
     double time;
-    const iso_lane_code *code;
+    const iso_lane_build *code;
     iso_lane_event event;
     double first[ISO_LANE_DEVIATIONS][ISO_MAX_STATE];
     bool arrived;

@@ -109,7 +109,7 @@ static void check_order(const iso_method *m, const iso_system *system, iso_clock
 /* --- processors ------------------------------------------------------------------------------------------------- */
 
 /* The method on one code, whatever this processor would choose. */
-static iso_method method_of(const iso_taylor_code *code)
+static iso_method method_of(const iso_taylor_build *code)
 {
     iso_method m = *taylor;
     m.create = code->create, m.start = code->start, m.step = code->step, m.dense = code->dense;

@@ -93,7 +93,7 @@ static iso_status follow(const iso_effects *e, const char *method, double time, 
 
 /* The same by equal steps of rk8pd, which keep no energy and ask nobody about it. Steps are a tenth of the time in which
  * the ball crosses a patch, so their error is below 1e-8. */
-static void follow_alone(const iso_effects *e, double time, double step, double y[ISO_STATE])
+static void follow_single(const iso_effects *e, double time, double step, double y[ISO_STATE])
 {
     const iso_method_options options = {.tolerance = 1e-13, .fixed_step = step, .no_projection = true};
     iso_orbit_options o = iso_orbit_defaults(&start);
@@ -145,7 +145,7 @@ static patched random_torque(iso_random *r)
     }
     const char *const smooth[3] = {t.smooth[0], t.smooth[1], t.smooth[2]};
     const iso_effects e = torque_of(smooth, NOT_SAID);
-    follow_alone(&e, many, step, place);
+    follow_single(&e, many, step, place);
     int at = snprintf(patch, TEXT, "%.3f*exp(-%.0f*(", much, t.sharp);
     for (int i = 0; i < ISO_STATE; i++)
         at += snprintf(patch + at, TEXT - (size_t)at, "%s(%s%d - (%.3f))^2", i > 0 ? "+" : "", i < 3 ? "omega" : "n",
@@ -177,7 +177,7 @@ static void patches(void)
         const char *const M[3] = {t.M[0], t.M[1], t.M[2]};
         const iso_effects any = torque_of(M, ISO_WORK_UNKNOWN);
         double y[ISO_STATE], reference[ISO_STATE];
-        follow_alone(&any, 6, 0.1 / sqrt(t.sharp), reference);
+        follow_single(&any, 6, 0.1 / sqrt(t.sharp), reference);
         for (int j = 0; j < CLAIMS; j++) {
             const iso_effects e = torque_of(M, claims[j]);
             const char *method = methods[(i + j) % 3];

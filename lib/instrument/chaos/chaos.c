@@ -205,7 +205,7 @@ static bool alike(const iso_chaos_walk *a, const iso_chaos_walk *b)
 }
 
 /* Orbits that turn from section to section can share lanes; the others are followed alone. */
-static iso_status follow_alone(iso_chaos_walk *w, iso_status *status)
+static iso_status follow_single(iso_chaos_walk *w, iso_status *status)
 {
     *status = iso_chaos_follow(w);
     for (int m = 0; m < 2; m++) {
@@ -235,7 +235,7 @@ static iso_status follow_many(size_t count, iso_chaos_walk walk[], iso_chaos_wal
     for (size_t i = 0; i < count && answer == ISO_OK; i++) {
         if (status[i] != ISO_OK) continue;
         if (walk[i].out->axis < 0 || walk[i].out->plane >= 0)
-            answer = follow_alone(&walk[i], &status[i]);
+            answer = follow_single(&walk[i], &status[i]);
         else
             left[free++] = &walk[i];
     }

@@ -49,7 +49,7 @@ typedef struct iso_chaos_options {
     uint64_t seed;         /* another seed spreads them in another way                                   */
     const double (*at)[2]; /* (l, x) of further starts, |x| < 1; they are not in the share */
     size_t at_count;
-    iso_models models;   /* that are integrated; ISO_SHOW_START: both if the ball has a twin, as said above */
+    iso_models models;   /* which models are integrated; ISO_SHOW_START: both, if the isomorphism holds */
     int axis;            /* of the section, 0 to 2, which must be global; ISO_AXIS_AUTO: the global one */
     double tolerance;    /* NAN: the scene's; of spread starts at least ISO_SPREAD_TOLERANCE           */
     int threads;         /* 0: as many as there are processors to run on                               */

@@ -115,7 +115,7 @@ static bool has_share(const void *row)
     return ((const iso_chaos *)row)->share.asked > 0;
 }
 
-/* Those of the model with more of them. */
+/* The larger of both models' numbers of turns. */
 static double turns_of(const void *row)
 {
     const iso_chaos *c = row;

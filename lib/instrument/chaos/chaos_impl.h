@@ -60,7 +60,7 @@ typedef struct iso_turn_sample {
     double observable[ISO_OBSERVABLES];
 } iso_turn_sample;
 
-/* Sums of one look; see indicators.c. */
+/* Sums of one window; see indicators.c. */
 typedef struct iso_window {
     long first, last; /* the turns n that it uses: first < n <= last */
     /* Of each half. */

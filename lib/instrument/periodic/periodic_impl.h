@@ -69,11 +69,11 @@ typedef struct iso_periodic_fine {
 void iso_periodic_join(const iso_periodic_fine *first, const iso_periodic_fine *next, iso_periodic_fine *both);
 
 /* g^halves of a point. path[n - 1] = g^n of it, n = 1 to halves; NULL: not asked. False: it failed. */
-bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, const iso_wide from[2], int halves,
+bool iso_periodic_far(const iso_periodic_map *map, const iso_return_build *code, const iso_wide from[2], int halves,
                       double (*path)[2], iso_periodic_fine *found);
 
 /* From a start half way to its first crossing; the derivative by (u, c). False: it failed. */
-bool iso_periodic_enter(const iso_periodic_map *map, const iso_return_code *code, iso_return_start start, iso_wide u,
+bool iso_periodic_enter(const iso_periodic_map *map, const iso_return_build *code, iso_return_start start, iso_wide u,
                         iso_periodic_fine *found);
 
 /* The law of the derivative's determinant, from l to another l: G(l)/G(l'). */
@@ -135,7 +135,7 @@ typedef struct iso_periodic_shot {
     iso_wide back[2][2];    /* the derivative of g^period there, along the mirror image, which leads back to z */
     double path[ISO_PERIODIC_MOST][2]; /* g z ... g^period z */
 } iso_periodic_shot;
-bool iso_periodic_shoot(const iso_periodic_map *map, const iso_return_code *code, int line, iso_wide u, int period,
+bool iso_periodic_shoot(const iso_periodic_map *map, const iso_return_build *code, int line, iso_wide u, int period,
                         iso_periodic_shot *shot);
 
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
@@ -145,7 +145,7 @@ typedef struct iso_periodic_work {
     const iso_scene *scene;
     iso_periodic_options options;
     iso_periodic_map map;
-    iso_on_level on;               /* of the scene */
+    iso_motion_level on;           /* of the scene */
     double unit_clock[ISO_CLOCKS]; /* the scene's clocks of one own clock at eps = 1 */
     iso_periodic *out;
     struct iso_periodic_folded *folded; /* points of the orbits that are found, for duplicates */
@@ -186,7 +186,7 @@ typedef enum iso_periodic_answer {
     ISO_PERIODIC_LOST, /* Newton's method did not end, or the orbit could not be followed */
     ISO_PERIODIC_NONE  /* a zero of F that is no orbit                                    */
 } iso_periodic_answer;
-iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_return_code *code,
+iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_return_build *code,
                                        const iso_periodic_candidate *c, iso_periodic_orbit *o, double (*path)[2]);
 
 /* Solves candidates on all threads, and adds their orbits to the list, unless they are there already or have a

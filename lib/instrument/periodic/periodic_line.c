@@ -161,7 +161,7 @@ static void arrive(int line, const arrival *a, iso_periodic_shot *s)
     find_trace(a, S, s);
 }
 
-static bool shoot_from_section(const iso_periodic_map *map, const iso_return_code *code, int line, int period,
+static bool shoot_from_section(const iso_periodic_map *map, const iso_return_build *code, int line, int period,
                                iso_periodic_shot *s)
 {
     const bool flat = line == LINE_X;
@@ -182,7 +182,7 @@ static bool shoot_from_section(const iso_periodic_map *map, const iso_return_cod
 }
 
 /* in: from the line to z; before: from z to the last crossing before the line at the end; last: from there on. */
-static bool shoot_from_half_way(const iso_periodic_map *map, const iso_return_code *code, int line, int period,
+static bool shoot_from_half_way(const iso_periodic_map *map, const iso_return_build *code, int line, int period,
                                 iso_periodic_shot *s)
 {
     iso_periodic_fine in, before, last;
@@ -204,7 +204,7 @@ static bool shoot_from_half_way(const iso_periodic_map *map, const iso_return_co
     return true;
 }
 
-bool iso_periodic_shoot(const iso_periodic_map *map, const iso_return_code *code, int line, iso_wide u, int period,
+bool iso_periodic_shoot(const iso_periodic_map *map, const iso_return_build *code, int line, iso_wide u, int period,
                         iso_periodic_shot *shot)
 {
     shot->u = u;

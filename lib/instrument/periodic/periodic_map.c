@@ -180,7 +180,7 @@ iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_w
 
 /* How far the determinant is from the law, in units of the rounding errors that its terms explain. The area of (u, c)
  * half way is G du dc. */
-static double doubt(const iso_periodic_map *map, const iso_return_code *code, const iso_return *r)
+static double doubt(const iso_periodic_map *map, const iso_return_build *code, const iso_return *r)
 {
     const iso_wide wanted = law(map, q_of(map, r), q_at(map, iso_wide_of(r->to[0])));
     const double terms = fabs(r->slope[0][0].head * r->slope[1][1].head) +
@@ -190,7 +190,7 @@ static double doubt(const iso_periodic_map *map, const iso_return_code *code, co
 
 /* One return. Steps are as long as the orbit allows; deviations that grow fast can need shorter ones. The determinant
  * shows it: then the tolerance is made smaller. */
-static bool go_once(const iso_periodic_map *map, const iso_return_code *code, iso_return *r)
+static bool go_once(const iso_periodic_map *map, const iso_return_build *code, iso_return *r)
 {
     enum { TRIES = 4, ALLOWED = 200 };
     double tolerance = map->finer * (code->error < 1e-20 ? 1e-16 : 1e-15), least = INFINITY;
@@ -215,7 +215,7 @@ void iso_periodic_join(const iso_periodic_fine *first, const iso_periodic_fine *
 }
 
 /* Goes on by one return. */
-static bool go_on(const iso_periodic_map *map, const iso_return_code *code, iso_return_start start,
+static bool go_on(const iso_periodic_map *map, const iso_return_build *code, iso_return_start start,
                   iso_periodic_fine *orbit)
 {
     iso_return r = {.start = start, .from = {iso_fine_of(orbit->to[0]), iso_fine_of(orbit->to[1])}};
@@ -236,7 +236,7 @@ static iso_periodic_fine standing_at(iso_wide first, iso_wide second)
     return (iso_periodic_fine){.to = {first, second}, .slope = {{1, 0}, {0, 1}}, .determinant = 1};
 }
 
-bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, const iso_wide from[2], int halves,
+bool iso_periodic_far(const iso_periodic_map *map, const iso_return_build *code, const iso_wide from[2], int halves,
                       double (*path)[2], iso_periodic_fine *found)
 {
     *found = standing_at(from[0], from[1]);
@@ -249,7 +249,7 @@ bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, 
     return true;
 }
 
-bool iso_periodic_enter(const iso_periodic_map *map, const iso_return_code *code, iso_return_start start, iso_wide u,
+bool iso_periodic_enter(const iso_periodic_map *map, const iso_return_build *code, iso_return_start start, iso_wide u,
                         iso_periodic_fine *found)
 {
     *found = standing_at(u, 0);

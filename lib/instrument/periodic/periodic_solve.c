@@ -12,7 +12,7 @@
 /* What is being computed of one orbit. */
 typedef struct solver {
     iso_periodic_map map;
-    const iso_return_code *code;
+    const iso_return_build *code;
     int line, period;
     iso_wide u, z[2];
     iso_periodic_shot shot;  /* of a symmetric orbit         */
@@ -163,7 +163,7 @@ static void measure(const solver *s, iso_periodic_orbit *o)
     o->multipliers = iso_multipliers_of(o->trace, fmax(4 * o->error, o->torus ? 1e-9 : 1e-15), (double)slope[1][0]);
 }
 
-iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_return_code *code,
+iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_return_build *code,
                                        const iso_periodic_candidate *c, iso_periodic_orbit *o, double (*path)[2])
 {
     solver s = {.map = *map, .code = code, .line = c->line, .period = c->period, .u = c->u, .path = path};

@@ -33,7 +33,7 @@ typedef struct iso_manifold {
     iso_context *ctx; /* its monitor is asked at each half return */
     iso_problem problem;
     iso_model model;
-    const iso_return_code *code;
+    const iso_return_build *code;
     int axis, terms;
     double level, zeros, tolerance;
     iso_wide corner; /* l0 */
@@ -55,7 +55,7 @@ typedef struct iso_manifold_crossing {
 } iso_manifold_crossing;
 
 /* Other numbers: lambda and v anew, and the polynomial stays as a first guess. */
-iso_status iso_manifold_use(iso_manifold *m, const iso_return_code *code);
+iso_status iso_manifold_use(iso_manifold *m, const iso_return_build *code);
 
 /* Finds the polynomial on the domain m->size with m->terms terms, from the c that there are. */
 iso_status iso_manifold_solve(iso_manifold *m);

@@ -53,7 +53,7 @@ static iso_status check_trace(const iso_manifold *m, double trace)
 
 /* lambda and v from the derivative at the fixed point, whose determinant is 1. Terms of the series are kept to a hundredth
  * of a rounding error. */
-iso_status iso_manifold_use(iso_manifold *m, const iso_return_code *code)
+iso_status iso_manifold_use(iso_manifold *m, const iso_return_build *code)
 {
     const iso_wide origin[2] = {0, 0};
     iso_wide image[2], A[2][2];

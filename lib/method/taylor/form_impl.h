@@ -97,7 +97,7 @@ static void set_shape(form *T, const iso_model *m, iso_inside *inside, double to
     T->inside = inside;
     T->flat = inside && iso_inside_flat(inside, &m->problem);
     T->tolerance = tolerance * FINER;
-    T->is_point_t = m->system == &iso_system_point_t;
+    T->is_point_t = m->system == &iso_system_point_in_t;
     T->at_poles = pow(T->tolerance, 0.75);
     T->is_point = m->system == &iso_system_point;
     T->in_field = T->is_point && m->problem.energy_formula.lines > 0;

@@ -43,7 +43,7 @@ typedef struct iso_lane_job {
     iso_lane_event *event;        /* NULL, or: one for each row                                                */
     bool on_section;              /* the start lies on the section: it is no crossing, whatever the sign of n_axis */
     double *passed;               /* the times of the crossings, in the model's units                          */
-    void *saved;                  /* NULL, or: iso_lane_code.saved bytes, which begin with 0                   */
+    void *saved;                  /* NULL, or: iso_lane_build.saved bytes, which begin with 0                   */
     size_t done;                  /* how many of the rows have been reached                                    */
     double last;                  /* the last good time, in the model's units ...                              */
     double last_y[ISO_MAX_STATE]; /* ... and the state there, where it ended before the last row             */
@@ -60,7 +60,7 @@ typedef struct iso_lane_options {
 } iso_lane_options;
 
 /* One compilation: for processors with vectors of a certain width. */
-typedef struct iso_lane_code {
+typedef struct iso_lane_build {
     const char *name;
     int lanes;
     int deviations; /* 0 or ISO_LANE_DEVIATIONS */
@@ -69,14 +69,14 @@ typedef struct iso_lane_code {
     /* Solves jobs (one at least) of models that are alike and not stiff. False: no memory, or stopped by go_on; jobs
      * that are not done have no error then. */
     bool (*solve)(iso_lane_job *const jobs[], size_t count, const iso_lane_options *options);
-} iso_lane_code;
+} iso_lane_build;
 
 /* The codes of this build without deviations, widest first, ended by NULL; the last runs everywhere. */
-extern const iso_lane_code *const iso_lane_codes[];
+extern const iso_lane_build *const iso_lane_codes[];
 
 /* The one called `name`, or for NULL the widest, that this processor can run; NULL: none. With deviations there are
  * also "extended" and "quad", one orbit in numbers of more digits. */
-const iso_lane_code *iso_lane_code_find(const char *name, bool deviations);
+const iso_lane_build *iso_lane_code_find(const char *name, bool deviations);
 
 /* The clock that is the variable of a model's series. */
 iso_clock iso_lane_clock(const iso_model *model);
@@ -84,8 +84,8 @@ iso_clock iso_lane_clock(const iso_model *model);
 /* Whether two models can share lanes: the same system, effects and clocks, and the same form of the equations. */
 bool iso_lanes_alike(const iso_model *a, const iso_model *b);
 
-extern const iso_lane_code iso_lanes_plain, iso_lanes_avx2, iso_lanes_avx512;
-extern const iso_lane_code iso_tangent_plain, iso_tangent_avx2, iso_tangent_avx512;
-extern const iso_lane_code iso_tangent_extended, iso_tangent_quad;
+extern const iso_lane_build iso_lanes_plain, iso_lanes_avx2, iso_lanes_avx512;
+extern const iso_lane_build iso_tangent_plain, iso_tangent_avx2, iso_tangent_avx512;
+extern const iso_lane_build iso_tangent_extended, iso_tangent_quad;
 
 #endif

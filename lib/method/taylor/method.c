@@ -17,15 +17,15 @@
 #include "method/taylor/code_impl.h"
 #include "model/model_impl.h"
 
-static const iso_taylor_code *code_of(const iso_integrator *it)
+static const iso_taylor_build *code_of(const iso_integrator *it)
 {
-    return *(const iso_taylor_code *const *)it->data;
+    return *(const iso_taylor_build *const *)it->data;
 }
 
-static iso_status create_with(iso_integrator *it, const iso_taylor_code *code)
+static iso_status create_with(iso_integrator *it, const iso_taylor_build *code)
 {
     const iso_status status = code->create(it);
-    if (status == ISO_OK) *(const iso_taylor_code **)it->data = code;
+    if (status == ISO_OK) *(const iso_taylor_build **)it->data = code;
     return status;
 }
 

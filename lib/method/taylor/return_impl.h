@@ -132,7 +132,7 @@ static bool cross_step(const form *T, int axis, NUMBER length, NUMBER zeros, NUM
 
 /* The higher coefficients of a series, in doubles. */
 typedef struct tail {
-    const iso_tail_code *code;
+    const iso_rest_build *code;
     void *data;
     int from; /* even: the first coefficient of q that they give */
     iso_tail_rows rows;

@@ -33,15 +33,15 @@ typedef struct iso_return {
     iso_fine clock[ISO_CLOCKS]; /* how long it took; of clocks that the model carries, and its own */
 } iso_return;
 
-typedef struct iso_return_code {
+typedef struct iso_return_build {
     const char *name;
     double error; /* of one operation, relative */
     /* model: the free point on H = 0. zeros: see iso_lane_job. tolerance: as of other Taylor methods where their
      * numbers are doubles; it is multiplied by error/1e-16.
      * False: no memory, or no crossing. */
     bool (*go)(const iso_model *model, int axis, double zeros, double tolerance, iso_return *r);
-} iso_return_code;
+} iso_return_build;
 
-extern const iso_return_code iso_return_extended, iso_return_quad;
+extern const iso_return_build iso_return_extended, iso_return_quad;
 
 #endif

@@ -5,7 +5,7 @@
 #include "method/taylor/restore_impl.h"
 
 typedef struct single {
-    const iso_taylor_code *code; /* set by method.c */
+    const iso_taylor_build *code; /* set by method.c */
     form T;
     real length; /* of the last step, in the own variable */
 } single;

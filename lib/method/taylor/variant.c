@@ -1,7 +1,7 @@
 /* variant.c - the code of the Taylor methods, compiled once for each kind of number and vector.
  *
  * The build (CMakeLists.txt) sets ISO_TAYLOR_VARIANT to VARIANT_ and one of the names below. The first four are an
- * iso_taylor_code, for the method (method.c). The others are an iso_lane_code, for batches and crossings (lanes.c),
+ * iso_taylor_build, for the method (method.c). The others are an iso_lane_build, for batches and crossings (lanes.c),
  * with an orbit in each lane of a vector. Those called tangent compute two deviations beside each orbit. All project
  * and system headers come before the macros of numbers, so that these reach only the series. They end with this file.
  *
@@ -154,45 +154,45 @@ static bool runs_here(void)
 #endif
 
 #if IS(PLAIN)
-const iso_taylor_code iso_taylor_plain = {create, start, step, dense, save, recall};
+const iso_taylor_build iso_taylor_plain = {create, start, step, dense, save, recall};
 #elif IS(AVX2)
-const iso_taylor_code iso_taylor_avx2 = {create, start, step, dense, save, recall};
+const iso_taylor_build iso_taylor_avx2 = {create, start, step, dense, save, recall};
 
 bool iso_taylor_has_avx2(void)
 {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 }
 #elif IS(EXTENDED)
-const iso_taylor_code iso_taylor_extended = {create, start, step, dense, save, recall};
+const iso_taylor_build iso_taylor_extended = {create, start, step, dense, save, recall};
 #elif IS(QUAD)
-const iso_taylor_code iso_taylor_quad = {create, start, step, dense, save, recall};
+const iso_taylor_build iso_taylor_quad = {create, start, step, dense, save, recall};
 #elif IS(LANES_PLAIN)
-const iso_lane_code iso_lanes_plain = LANE_CODE("plain");
+const iso_lane_build iso_lanes_plain = LANE_CODE("plain");
 #elif IS(LANES_AVX2)
-const iso_lane_code iso_lanes_avx2 = LANE_CODE("avx2");
+const iso_lane_build iso_lanes_avx2 = LANE_CODE("avx2");
 #elif IS(LANES_AVX512)
-const iso_lane_code iso_lanes_avx512 = LANE_CODE("avx512");
+const iso_lane_build iso_lanes_avx512 = LANE_CODE("avx512");
 #elif IS(TANGENT_PLAIN)
-const iso_lane_code iso_tangent_plain = LANE_CODE("plain");
+const iso_lane_build iso_tangent_plain = LANE_CODE("plain");
 #elif IS(TANGENT_AVX2)
-const iso_lane_code iso_tangent_avx2 = LANE_CODE("avx2");
+const iso_lane_build iso_tangent_avx2 = LANE_CODE("avx2");
 #elif IS(TANGENT_AVX512)
-const iso_lane_code iso_tangent_avx512 = LANE_CODE("avx512");
+const iso_lane_build iso_tangent_avx512 = LANE_CODE("avx512");
 #elif IS(TANGENT_EXTENDED)
-const iso_return_code iso_return_extended = {"extended", LDBL_EPSILON, go};
-const iso_lane_code iso_tangent_extended = LANE_CODE("extended");
+const iso_return_build iso_return_extended = {"extended", LDBL_EPSILON, go};
+const iso_lane_build iso_tangent_extended = LANE_CODE("extended");
 #elif IS(TAIL_PLAIN)
 static bool runs_everywhere(void)
 {
     return true;
 }
 
-const iso_tail_code iso_tail_plain = {runs_everywhere, create_tail, expand_tail};
+const iso_rest_build iso_tail_plain = {runs_everywhere, create_tail, expand_tail};
 #elif IS(TAIL_AVX2)
-const iso_tail_code iso_tail_avx2 = {iso_taylor_has_avx2, create_tail, expand_tail};
+const iso_rest_build iso_tail_avx2 = {iso_taylor_has_avx2, create_tail, expand_tail};
 #else
-const iso_return_code iso_return_quad = {"quad", 0x1p-106, go};
-const iso_lane_code iso_tangent_quad = LANE_CODE("quad");
+const iso_return_build iso_return_quad = {"quad", 0x1p-106, go};
+const iso_lane_build iso_tangent_quad = LANE_CODE("quad");
 #endif
 
 #endif

@@ -98,7 +98,7 @@ typedef struct iso_effect {
 
     /* --- what it means --- */
     bool observes; /* it changes nothing in the motion: it only adds states or columns                   */
-    /* Whether it has no torque from a start with the normal n on: then it observes as well. NULL: never. */
+    /* True if it never has a torque after a start with the normal n: then it only observes. NULL: never true. */
     bool (*idle)(const iso_params *p, const double n[3], const iso_effects *effects);
     bool ball_only;     /* an observer whose states or columns only backend ball has                          */
     const char *breaks; /* why no isomorphism survives it; NULL: it has an image, or it observes              */

@@ -174,7 +174,7 @@ void iso_checker_beginning(checker *c, checked_model *ball, const double row[]);
 /* --- the study (check_study.c) ---------------------------------------------------------------------------------- */
 
 typedef struct iso_check_request {
-    iso_added added;
+    iso_file_parameters added;
     double tolerance, bound; /* bound NAN: not given */
 } iso_check_request;
 

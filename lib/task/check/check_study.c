@@ -92,7 +92,7 @@ static iso_status check_rows(iso_context *ctx, const iso_study_subject *subject,
     iso_status status = row.number ? iso_record_create_like(ctx, subject->record, 0, NULL, &header)
                                    : iso_context_no_memory(ctx, "a row");
     if (status == ISO_OK) status = from->next(ctx, from->data, &row);
-    if (status == ISO_OK) status = iso_added_params(ctx, &r->added, subject->scene, header, &params);
+    if (status == ISO_OK) status = iso_file_parameters_apply(ctx, &r->added, subject->scene, header, &params);
     if (status == ISO_OK) status = iso_checking_create(ctx, &params, header, r->tolerance, &checking);
     while (status == ISO_OK) {
         for (; passed < row.passed; passed++) iso_checking_pass(checking);

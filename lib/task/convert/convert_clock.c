@@ -9,7 +9,7 @@
 #include "orbit/watch_impl.h"
 #include "task/convert/convert_impl.h"
 
-/* How far n moves in the time by which the file's other clock, if it has one, is wrong since the last row. */
+/* The error of the file's other clock since the last row, as a way of n; 0: it has none. */
 static double late(const iso_conversion *c, const conversion_row *r, double gained)
 {
     const double *n = r->y + 3, *m = c->last.y + 3;

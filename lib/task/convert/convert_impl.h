@@ -11,7 +11,7 @@
 typedef struct iso_convert_request {
     iso_model_kind to; /* -1: not given */
     double tolerance;  /* of the other clock's gain from row to row, relative */
-    iso_added added;
+    iso_file_parameters added;
     double max_defect; /* NAN: by the tolerances and digits of the rows, 1e-5 or more */
     /* For points with k = -1 off the level H = 0. true: the point becomes the free ball with the moments J + E/eps,
      * where E is the energy of the first row: the same motion. false: it becomes a ball in the potential of the effect
@@ -158,8 +158,8 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
                                  iso_conversion **conversion);
 void iso_conversion_free(iso_conversion *conversion);
 
-/* The next row. The first good one is held against the lines: where h, eps or c of a level does not fit it beyond
- * rounding, the result states the row's own number, and the summary tells. The wrong one of the three is the one
+/* The next row. The first good row is compared with the lines: where h, eps or c of a level differs by more than
+ * rounding, the result has the row's number, and the summary says so. The wrong one of the three is the one
  * that the other two and the row contradict. A point off the level H = 0 becomes a ball in the potential of the effect `level`,
  * which the lines of the result then name. A bad row is no state, it is at rest, its energy is not that of the rows
  * before, or the orbit of the row before does not reach it. A row that this orbit misses, or whose time turns back, is

@@ -103,7 +103,7 @@ static iso_status begin_orbit(work *w)
     iso_record_free(w->in);
     w->in = NULL;
     ISO_TRY(iso_record_create_like(w->ctx, w->subject->record, 0, NULL, &w->in));
-    ISO_TRY(iso_added_params(w->ctx, &w->how->added, w->subject->scene, w->in, &w->params));
+    ISO_TRY(iso_file_parameters_apply(w->ctx, &w->how->added, w->subject->scene, w->in, &w->params));
     const iso_sink sink = {.header = put_header, .row = put_row, .note = name_row, .data = w};
     return iso_conversion_create(w->ctx, &w->params, w->in, w->how, w->found->name, &sink, &w->conversion);
 }
