@@ -16,7 +16,8 @@
  * - Inputs are read, not kept: they may go after the call. Headers name the exceptions, such as
  *   the header of a conversion. An object must not outlive its context.
  *
- * NULL is allowed only where a header says so. Strings that a call takes (names, texts, paths, keys) end with a zero byte and are not NULL: the library does not test it.
+ * NULL is allowed only where a header says so. Strings that a call takes (names, texts, paths, keys) end with a zero
+ * byte and are not NULL: the library does not test it.
  *
  * Binary interface: it is kept from version 0.3 on. A function may be added; none changes its arguments or goes without
  *   a new number in the name of the shared library.

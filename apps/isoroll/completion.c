@@ -1,5 +1,5 @@
-/* completion.c - completes the command line: the scripts for bash and zsh ask `isoroll --complete WORD...` for the words
- * that may stand in the place of the last one. */
+/* completion.c - completes the command line: the scripts for bash and zsh ask `isoroll --complete WORD...` for the
+ * words that may stand in the place of the last one. */
 #include <string.h>
 
 #include "command.h"

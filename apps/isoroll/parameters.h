@@ -31,7 +31,7 @@ typedef struct file_options {
  * the lines. */
 iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_record *record, iso_params *params);
 
-/* Puts the file's name before the context's message, unless it names a place, a file or an option already. Gives
+/* Puts the file's name before the context's message, unless it names a place, a file or an option already. Returns
  * `status`. */
 iso_status name_the_file(iso_context *ctx, const char *file, iso_status status);
 

@@ -22,7 +22,7 @@ static struct {
     bool works, drawn;
     const char *what;   /* is done, if it is not the work itself; NULL: it is */
     double begun;       /* when                                            */
-    double first, part; /* told first, and last; NAN: nothing has been told */
+    double first, part; /* the first and the last part shown; NAN: none */
     pthread_t drawer;
 } bar;
 

@@ -11,9 +11,9 @@ void cblas_xerbla(int argument, const char *function, const char *format, ...)
     abort();
 }
 
-/* Debian 13's static SUNDIALS 7 was compiled with MPI, which a wheel cannot have. It calls MPI for a communicator alone,
- * and isoroll gives it none (SUN_COMM_NULL in base/sundials_impl.h): none of these is ever called. The three objects are
- * those of Open MPI; only their addresses are compared. */
+/* Debian 13's static SUNDIALS 7 was compiled with MPI, which a wheel cannot have. It calls MPI for a communicator
+ * alone, and isoroll gives it none (SUN_COMM_NULL in base/sundials_impl.h): none of these is ever called. The three
+ * objects are those of Open MPI; only their addresses are compared. */
 #define NEVER_CALLED(function)                                                                                       \
     void function(void);                                                                                             \
     void function(void)                                                                                              \
@@ -48,8 +48,8 @@ NEVER_CALLED(EVP_sha256)
 NEVER_CALLED(HMAC)
 NEVER_CALLED(SHA256)
 
-/* The static C++ library has random numbers and exceptions, which need glibc 2.36. The digits that isoroll takes from it
- * (base/digits.cpp) have neither. */
+/* The static C++ library has random numbers and exceptions, which need glibc 2.36. The digits that isoroll takes from
+ * it (base/digits.cpp) have neither. */
 void iso_no_random(void) __asm__("arc4random"); /* by other names: glibc's headers declare the first */
 void iso_no_object(void) __asm__("_dl_find_object");
 NEVER_CALLED(iso_no_random)

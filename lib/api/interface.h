@@ -109,8 +109,8 @@ ISO_API double iso_scene_energy(const iso_scene *scene, const double ball[6]);
 
 /* --- solutions ------------------------------------------------------------------------------------------ */
 
-/* The solution of a scene, which can be asked for any time. It has a context of its own: different orbits can be used by different
- * threads at the same time. `ctx` takes only the words of a failure here. The scene is copied. */
+/* The solution of a scene, which can be asked for any time. It has a context of its own: different orbits can be used
+ * by different threads at the same time. `ctx` takes only the words of a failure here. The scene is copied. */
 typedef struct iso_solution iso_solution;
 ISO_API iso_status iso_solution_create(iso_context *ctx, const iso_scene *scene, iso_solution **solution);
 ISO_API void iso_solution_free(iso_solution *solution);
@@ -200,8 +200,9 @@ ISO_API iso_status iso_list(iso_context *ctx, const char *topic, char text[], si
 /* --- pictures --------------------------------------------------------------------------------------------------- */
 
 /* The tables of a picture of these tables (NULL after the last), by their kinds, as templates and apps/python draw
- * them. options: "KEY=VALUE" lines, or NULL. *layout: the name of the template. made[]: NULL after the last; the kind of
- * each is its name in the template; the caller frees them. Errors: ISO_BAD_ARGUMENT, ISO_BAD_INPUT, ISO_NO_MEMORY. */
+ * them. options: "KEY=VALUE" lines, or NULL. *layout: the name of the template. made[]: NULL after the last; the kind
+ * of each is its name in the template; the caller frees them. Errors: ISO_BAD_ARGUMENT, ISO_BAD_INPUT,
+ * ISO_NO_MEMORY. */
 enum { ISO_PICTURE_MOST = 16 };
 ISO_API iso_status iso_picture_of(iso_context *ctx, const iso_record *const table[], const char *options,
                                   const char **layout, iso_record *made[ISO_PICTURE_MOST]);
@@ -218,8 +219,8 @@ ISO_API iso_status iso_picture_of(iso_context *ctx, const iso_record *const tabl
 ISO_API iso_status iso_sweep_ask(iso_context *ctx, const char *path, const char *text, size_t length, int threads,
                                  void (*progress)(void *data, double part), void *data, iso_record **record);
 
-/* What `isoroll explain` says of a sweep, as the text of the record (iso_study_text); for this a few points are computed. *record
- * is NULL if there is no sweep: a scene, or no file that can be read more than once.
+/* What `isoroll explain` says of a sweep, as the text of the record (iso_study_text); for this a few points are
+ * computed. *record is NULL if there is no sweep: a scene, or no file that can be read more than once.
  * Errors: those of iso_sweep_read and iso_sweep_create; ISO_STOPPED. */
 ISO_API iso_status iso_sweep_text(iso_context *ctx, const char *path, const char *text, size_t length,
                                   iso_record **record);

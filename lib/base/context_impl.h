@@ -22,7 +22,7 @@ static inline bool iso_monitor_goes_on(const iso_monitor *w)
 bool iso_context_goes_on(const iso_context *ctx);
 
 /* The message just recorded begins with the name of the file, and the place in it: iso_context_has_place() answers
- * true until the next failure. Gives the status, for `return iso_context_placed(ctx, iso_context_fail(...))`. */
+ * true until the next failure. Returns the status, for `return iso_context_placed(ctx, iso_context_fail(...))`. */
 iso_status iso_context_placed(iso_context *ctx, iso_status status);
 
 /* One thing that the context keeps for a library below it, until its end: SUNDIALS' own context. NULL: nothing yet. */

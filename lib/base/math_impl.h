@@ -25,8 +25,9 @@ static inline bool all_finite(const double x[], int count)
     return sum == 0;
 }
 
-/* The weight of averages along an orbit: exp(-1/(u (1 - u))), 1 at its top; 0 outside of (0, 1). On a quasi-periodic orbit
- * their error is smaller than any power of 1/n (S. Das, Y. Saiki, E. Sander, J. A. Yorke, Nonlinearity 30, 2017). */
+/* The weight of averages along an orbit: exp(-1/(u (1 - u))), 1 at its top; 0 outside of (0, 1). On a quasi-periodic
+ * orbit their error is smaller than any power of 1/n (S. Das, Y. Saiki, E. Sander, J. A. Yorke, Nonlinearity 30,
+ * 2017). */
 static inline double iso_smooth_weight(double u)
 {
     return u > 0 && u < 1 ? exp(4 - 1 / (u * (1 - u))) : 0;

@@ -17,8 +17,8 @@ enum { ISO_SUGGEST_SIZE = 384 };
 /* The name that is nearest to `wrong`; NULL: none is near, half of the letters differ or more. */
 const char *iso_nearest(const char *wrong, size_t count, const char *const names[]);
 
-/* The end of a message about a wrong name: "did you mean 'x'?" with the nearest of the names, or, if none is near, "valid
- * are" and the names. Returns out. */
+/* The end of a message about a wrong name: "did you mean 'x'?" with the nearest of the names, or, if none is near,
+ * "valid are" and the names. Returns out. */
 const char *iso_suggest(char out[ISO_SUGGEST_SIZE], const char *wrong, size_t count, const char *const names[]);
 
 /* The same for the names word(0), word(1), ..., before the first NULL; iso_nearest_word: word NULL is none. */

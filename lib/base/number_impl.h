@@ -15,8 +15,8 @@
  * What underflows becomes the nearest double, subnormal or zero. */
 bool iso_number_read(const char *text, size_t length, double *value);
 
-/* Reads a finite number at the beginning of [from, to): decimal, with a sign or without, or hexadecimal as %a prints it.
- * Returns its end; NULL: there is none, or it is too large. What is too small becomes the nearest double. */
+/* Reads a finite number at the beginning of [from, to): decimal, with a sign or without, or hexadecimal as %a prints
+ * it. Returns its end; NULL: there is none, or it is too large. What is too small becomes the nearest double. */
 const char *iso_number_scan(const char *from, const char *to, double *value);
 
 /* Writes value in %.17g (reads back as the same double) with a decimal point, and returns the length. */
@@ -34,7 +34,8 @@ char *iso_number_short(char text[ISO_NUMBER_SIZE], double value);
 char *iso_number_rounded(char text[ISO_NUMBER_SIZE], double value, int digits);
 #define ISO_ROUNDED(value, digits) iso_number_rounded((char[ISO_NUMBER_SIZE]){""}, value, digits)
 
-/* --- digits by the C++ library (digits.cpp): the bytes of printf and strtod, in any locale, several times faster ---- */
+/* --- digits by the C++ library (digits.cpp): the bytes of printf and strtod, in any locale, several times faster
+ * ---- */
 
 ISO_C_BEGIN
 

@@ -16,8 +16,8 @@ typedef struct iso_rational {
 /* Room for one as text, "-7/5" or "2". */
 #define ISO_RATIONAL_SIZE 40
 
-/* Reads the whole of text[0..length): a decimal number as iso_number_read takes it, or a fraction of two of them, "1/3".
- * False: it is neither, is 0, or is too large or too fine. */
+/* Reads the whole of text[0..length): a decimal number as iso_number_read takes it, or a fraction of two of them,
+ * "1/3". False: it is neither, is 0, or is too large or too fine. */
 bool iso_rational_read(const char *text, size_t length, iso_rational *r);
 
 /* What a double stands for: the decimal number of at most 15 digits that reads as this double, or else the fraction
@@ -42,7 +42,8 @@ char *iso_rational_print(char text[ISO_RATIONAL_SIZE], const iso_rational *r);
 /* The number nearest to text[0..length), a decimal number or a fraction. False: it is neither, or is not finite. */
 bool iso_rational_read_double(const char *text, size_t length, double *x);
 
-/* --- the numbers of a text as they are written there, digit by digit: "1.4", "1/3", "0.1e-5" ----------------------- */
+/* --- the numbers of a text as they are written there, digit by digit: "1.4", "1/3", "0.1e-5"
+ * ----------------------- */
 
 enum { ISO_LITERALS = 64, ISO_LITERAL_NAME = 64 };
 

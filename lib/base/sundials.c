@@ -1,4 +1,5 @@
-/* sundials.c - SUNDIALS' own context, which a context of ours keeps (sundials_impl.h). Left out with ISO_SUNDIALS=OFF. */
+/* sundials.c - SUNDIALS' own context, which a context of ours keeps (sundials_impl.h). Left out with
+ * ISO_SUNDIALS=OFF. */
 #include "base/sundials_impl.h"
 
 #include "base/context_impl.h"

@@ -46,7 +46,7 @@ typedef struct iso_bifurcation {
 
 enum { ISO_MOST_BIFURCATIONS = 4 };
 
-/* All of them for problem->p, eps > 0 and energy, c descending; gives their number, 0 for other k and levels and
+/* All of them for problem->p, eps > 0 and energy, c descending; returns their number, 0 for other k and levels and
  * where no motion has this energy. Equal moments give one. */
 int iso_bifurcations(const iso_problem *problem, iso_bifurcation list[ISO_MOST_BIFURCATIONS]);
 

@@ -125,9 +125,9 @@ static iso_status find_form(iso_context *ctx, const iso_problem *f, double point
                              fabs(fabs(f->p.k) - 1) < 1e-14 ? 17 : 15, f->p.k); /* 1 + 1e-15 must not read as 1 */
 }
 
-/* A time so short that gamma and M turn by a tenth of a radian at most, and the clocks' rates change by a tenth at most.
- * M' is the force and B gamma', with the field B = (b,gamma) of a rotor (model/effects/effect_rotor.c): M turns at the rate B,
- * which grows at the rates (b,gamma') and (b,gamma''). */
+/* A time so short that gamma and M turn by a tenth of a radian at most, and the clocks' rates change by a tenth at
+ * most. M' is the force and B gamma', with the field B = (b,gamma) of a rotor (model/effects/effect_rotor.c): M turns
+ * at the rate B, which grows at the rates (b,gamma') and (b,gamma''). */
 static void find_moments(const iso_problem *f, const double point[ISO_STATE], double moment[ISO_CLOCKS])
 {
     const iso_params *p = &f->p;
@@ -322,8 +322,8 @@ iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, d
 
 /* --- grids ------------------------------------------------------------------------------------------------------ */
 
-/* The longest step with a guess, in moments in which gamma turns by a tenth of a radian at most: for longer ones a guess
- * saves little, or nothing. */
+/* The longest step with a guess, in moments in which gamma turns by a tenth of a radian at most: for longer ones a
+ * guess saves little, or nothing. */
 static const double LONGEST = 4;
 static const double POOR = 1e-3; /* a guess that is wrong by more, about in radians, is of no use */
 

@@ -151,8 +151,8 @@ static int split(const latitude *r, function *f, int count, real place[MOST_PART
     return parts;
 }
 
-/* Places between which P is monotonic. q^(2 - power) P'' is A + B q + C q^(-power/2): its rate is zero at one y at most,
- * so by Rolle P'' is at two and P' at three at most. The first place is negative, the last is 1. */
+/* Places between which P is monotonic. q^(2 - power) P'' is A + B q + C q^(-power/2): its rate is zero at one y at
+ * most, so by Rolle P'' is at two and P' at three at most. The first place is negative, the last is 1. */
 static int monotonic_parts(const latitude *r, real place[MOST_PARTS])
 {
     const real d = r->Ja - r->Je, p = r->power, low = d > 0 ? fmaxl(-1, -r->Je / (2 * d)) : -1;

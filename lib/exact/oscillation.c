@@ -141,7 +141,7 @@ static bool find_theta(oscillation *o)
 /* Terms of gamma and z below this are left out: one step of Newton's method squares the error. */
 static const double FIRST = 1e-11;
 
-/* (3) from samples at theta = pi j/N. Gives whether N is large enough. */
+/* (3) from samples at theta = pi j/N. Returns whether N is large enough. */
 static bool find_xi(oscillation *o, int N)
 {
     double *const slope = o->gamma, *const work = o->z, *const z = work + 2 * N; /* work, then z, in one */

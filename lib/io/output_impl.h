@@ -23,8 +23,8 @@ typedef struct iso_output iso_output;
 /* Errors: ISO_FILE_TROUBLE, also if another program writes the file; ISO_NO_MEMORY; *out is then NULL. */
 iso_status iso_output_open(iso_context *ctx, const char *path, iso_output **out);
 
-/* The same of a regular file alone, or of "-". resumes: FILE.part is as it was, is to be cut before anything is written,
- * and stays when this ends without keeping it. */
+/* The same of a regular file alone, or of "-". resumes: FILE.part is as it was, is to be cut before anything is
+ * written, and stays when this ends without keeping it. */
 iso_status iso_output_open_regular(iso_context *ctx, const char *path, bool resumes, iso_output **out);
 
 /* Cuts it behind its first `length` bytes, where it goes on. Errors: ISO_FILE_TROUBLE. */
@@ -50,8 +50,8 @@ const char *iso_output_name(const iso_output *out);
 const char *iso_output_part(const iso_output *out);
 
 /* Ends the file and frees it (NULL is allowed). keep: flush to the disk and give the file its name; otherwise no
- * trace of it is left, except of what was written directly or can be resumed. Errors: ISO_FILE_TROUBLE; there is no file
- * then, and one that had the name before is as it was. */
+ * trace of it is left, except of what was written directly or can be resumed. Errors: ISO_FILE_TROUBLE; there is no
+ * file then, and one that had the name before is as it was. */
 iso_status iso_output_close(iso_context *ctx, iso_output *out, bool keep);
 
 /* For a program that a signal ends: takes away all that is being written. May be called in a signal's handler. */
@@ -62,8 +62,8 @@ void iso_output_unlink_all(void);
 /* ISO_FILE_TROUBLE in errno's words: "cannot WHAT 'path': ..."; ISO_CLOSED_PIPE when errno is EPIPE. */
 iso_status iso_file_trouble(iso_context *ctx, const char *what, const char *path);
 
-/* The name behind all links of a path, whether a file has it or not, to be freed by the caller; a name of an open stream
- * is not followed. NULL with errno set: ELOOP, links go round. */
+/* The name behind all links of a path, whether a file has it or not, to be freed by the caller; a name of an open
+ * stream is not followed. NULL with errno set: ELOOP, links go round. */
 char *iso_file_follow(const char *path);
 
 /* FILE.part of a path, to be freed by the caller; NULL: errno says why. */

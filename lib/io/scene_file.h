@@ -31,7 +31,8 @@ iso_status iso_scene_load(iso_context *ctx, const char *path, iso_scene *scene);
  * lists of nine. They are to be cleared, also after an error. */
 iso_status iso_scene_read_literals(iso_context *ctx, const char *path, iso_scene *scene, iso_literals *literals);
 
-/* The same as iso_scene_load from `length` bytes of text, which messages call `name`. Errors: ISO_BAD_INPUT, ISO_NO_MEMORY. */
+/* The same as iso_scene_load from `length` bytes of text, which messages call `name`. Errors: ISO_BAD_INPUT,
+ * ISO_NO_MEMORY. */
 iso_status iso_scene_load_text(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene);
 
 /* Changes a scene by a mapping of backend, method, tolerance, end, step, as and columns, such as "tolerance: 1e-9".

@@ -244,7 +244,8 @@ static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *v
     return read_section(d, &with_keys, value);
 }
 
-/* The i-th name that an effect has in scenes: first those of all effects, then those for a point; NULL past the last. */
+/* The i-th name that an effect has in scenes: first those of all effects, then those for a point; NULL past the
+ * last. */
 static const char *effect_key(int i, iso_effect_id *id)
 {
     if (i < ISO_EFFECTS) return *id = (iso_effect_id)i, iso_effect_list[i]->name;

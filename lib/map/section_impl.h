@@ -24,7 +24,8 @@ void iso_section_deviations(iso_point_motion m, int axis, double l, double x, do
 
 /* slope = (dl, dx) of a deviation (dM, dgamma) of the crossing `point`. The neighbouring orbit starts at
  * point + deviation. It is followed along the flow until it crosses the section, and (l, x) is taken there, all to
- * first order. So a part of the deviation along the flow changes nothing. rate: (M', gamma') at `point`, by any clock. */
+ * first order. So a part of the deviation along the flow changes nothing. rate: (M', gamma') at `point`, by any
+ * clock. */
 void iso_section_slope(int axis, const double point[ISO_STATE], const double rate[ISO_STATE],
                        const double deviation[ISO_STATE], double slope[2]);
 

@@ -141,8 +141,8 @@ static const char *find_end(const iso_integrator *it, const double y[], double m
     return why;
 }
 
-/* Looks into the current step for a place where the scene's claim about a torque fails. The step then ends there, and is
- * the last one. Where the method has no `dense`, such a place costs much to compute, and steps are shorter. */
+/* Looks into the current step for a place where the scene's claim about a torque fails. The step then ends there, and
+ * is the last one. Where the method has no `dense`, such a place costs much to compute, and steps are shorter. */
 static iso_status test_claim(iso_integrator *it)
 {
     const int places = it->method->dense ? ISO_CLAIM_PLACES : 2;

@@ -50,9 +50,9 @@
 /* From this stiffness on bdf needs less time than bsimp, which is more exact below it. */
 enum { ISO_VERY_STIFF = 1000 };
 
-/* How far a step is moved, relative to its size, back to its constraints and integrals. A sound step is moved by at most
- * 30 tolerances, of series by 0.2, and by some roundings (lib/doc/measured.md). Farther than the first bound, series take
- * a shorter step. Farther than the second, the step is no answer: roundings alone are 1e-10 at most. */
+/* How far a step is moved, relative to its size, back to its constraints and integrals. A sound step is moved by at
+ * most 30 tolerances, of series by 0.2, and by some roundings (lib/doc/measured.md). Farther than the first bound,
+ * series take a shorter step. Farther than the second, the step is no answer: roundings alone are 1e-10 at most. */
 #define ISO_FAR_CORRECTION(tolerance) fmax(100 * (tolerance), 1e-13)
 #define ISO_FALSE_CORRECTION(tolerance) fmax(1e5 * (tolerance), 1e-8)
 #define ISO_MOVED_TOO_FAR                                                                                            \

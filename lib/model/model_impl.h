@@ -101,8 +101,8 @@ void iso_inside_free(iso_inside *inside);
 /* Whether they are polynomials of low degree in n, omega, e and the functions that they call. */
 bool iso_inside_flat(iso_inside *inside, const iso_problem *f);
 
-/* A part of a step: y lies in its middle; n (of a point: gamma), omega and e go at most so far away from there. time: how
- * long the whole step is. In own units. */
+/* A part of a step: y lies in its middle; n (of a point: gamma), omega and e go at most so far away from there. time:
+ * how long the whole step is. In own units. */
 typedef struct iso_stretch {
     const double *y;
     double n, omega, e, time;
@@ -112,13 +112,13 @@ typedef struct iso_stretch {
  * it; 0, what they change is less than `least` of the state. */
 double iso_inside_variation(iso_inside *inside, const iso_model *m, const iso_stretch *stretch, double least);
 
-/* The longest step from y, in the model's clock, forwards or backwards (direction 1 or -1), in which the variation is at
- * most 1: for methods that look at a few places of a step alone. */
+/* The longest step from y, in the model's clock, forwards or backwards (direction 1 or -1), in which the variation is
+ * at most 1: for methods that look at a few places of a step alone. */
 double iso_inside_longest(iso_inside *inside, const iso_model *m, int direction, const double y[], double least);
 
-/* Whether a step of length h from y, in the model's clock, is so short that it leads nowhere: less than 1e-8 of the time
- * in which the state changes by about a radian. Towards a corner or a pole of what a scene writes, steps shrink without
- * an end. */
+/* Whether a step of length h from y, in the model's clock, is so short that it leads nowhere: less than 1e-8 of the
+ * time in which the state changes by about a radian. Towards a corner or a pole of what a scene writes, steps shrink
+ * without an end. */
 bool iso_inside_is_lost(const iso_model *m, const double y[], double h);
 
 /* --- where a motion ends: what an integrator asks (rest.c) ------------------------------------------------------ */

@@ -47,7 +47,7 @@ static inline iso_batch_options iso_batch_defaults(void)
 
 /* Fills samples[i rows + j] with orbit i at times[j], in the options' clock. Times run away from 0: all >= 0 and
  * growing, or all <= 0 and falling. status[i] (may be NULL) says how orbit i went; the rows that it has not reached
- * are NaN in every column. Gives ISO_OK, or the status of the first orbit that failed, with its number and reason in
+ * are NaN in every column. Returns ISO_OK, or the status of the first orbit that failed, with its number and reason in
  * the message (numbers from 0); the others go on. Errors of one orbit: those of iso_orbit_create and iso_orbit_at.
  * Errors of all: ISO_BAD_ARGUMENT (backend, tolerance, times, threads, vectors): status[] and samples[] are as they
  * were; ISO_NO_MEMORY, ISO_STOPPED by the context's monitor (asked by the calling thread alone): status and rows of

@@ -159,11 +159,11 @@ static void divide(double A[2][2], double B[2][2], double quotient[2][2])
     }
 }
 
-/* The area of two deviations across the flow, at the state y. Liouville's volume of (M, gamma) is dgamma_u dgamma_v dM_u
- * dM_v, u = M/|M|, v = gamma x u. A free motion keeps it in the time s, and so does a magnetic field. (M, 0) changes H
- * by |M|^2, so on a level of H the volume of three vectors is the determinant of their parts (dgamma_u, dgamma_v, dM_v),
- * divided by |M|. One of the three is the flow, with dgamma_v = |M| in s. A potential of n changes H by a function of
- * gamma alone, so this holds for it as well. */
+/* The area of two deviations across the flow, at the state y. Liouville's volume of (M, gamma) is dgamma_u dgamma_v
+ * dM_u dM_v, u = M/|M|, v = gamma x u. A free motion keeps it in the time s, and so does a magnetic field. (M, 0)
+ * changes H by |M|^2, so on a level of H the volume of three vectors is the determinant of their parts (dgamma_u,
+ * dgamma_v, dM_v), divided by |M|. One of the three is the flow, with dgamma_v = |M| in s. A potential of n changes H
+ * by a function of gamma alone, so this holds for it as well. */
 static double area_across(const iso_orbit *orbit, const double y[], double d[][ISO_MAX_STATE])
 {
     double flow[ISO_MAX_STATE], point[ISO_STATE], part[3][3], v[3], along[ISO_STATE];

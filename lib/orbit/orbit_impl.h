@@ -119,7 +119,7 @@ iso_effects iso_scene_effects(const iso_scene *scene);
  * "angular_velocity" at rest; about "eps", not above 0; about an effect that acts. Those of iso_orbit_create. */
 iso_status iso_scene_on_level(iso_context *ctx, iso_scene *scene, double level);
 
-/* All names, for lists of them; gives their number. */
+/* All names, for lists of them; returns their number. */
 int iso_column_names(const char *names[ISO_TRAJECTORY_COLUMNS]);
 
 /* The effect that a column needs; ISO_EFFECTS: none. */
@@ -204,11 +204,11 @@ iso_effects iso_scene_acting(const iso_scene *scene);
 
 /* Puts "name:line:column: " before the context's message if the failure is about a key that the scene was read with,
  * or about one that follows from it (k from `surface`). Then it is a mistake in the file, and ISO_BAD_ARGUMENT
- * becomes ISO_BAD_INPUT. Gives the status. */
+ * becomes ISO_BAD_INPUT. Returns the status. */
 iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
 
-/* What the place of a number is called, before its key, if the number as it is written is not what its double stands for
- * (base/rational_impl.h). */
+/* What the place of a number is called, before its key, if the number as it is written is not what its double stands
+ * for (base/rational_impl.h). */
 #define ISO_ROUNDED_KEY "rounded "
 
 /* Whether `k` or `J` of a scene file was rounded so. */

@@ -1,5 +1,5 @@
-/* rows_impl.h - along a trajectory, from row to row: how far a row is from the orbit through the row before it, and what
- * clocks and columns of effects gain in between.
+/* rows_impl.h - along a trajectory, from row to row: how far a row is from the orbit through the row before it, and
+ * what clocks and columns of effects gain in between.
  *
  *     iso_rows rows = {.ctx = ctx, .model = ISO_BALL, .clock = ISO_CLOCK_T, .columns = columns, .width = width, ...};
  *     iso_rows_begin(&rows, orbit of the first row, first, 1e-13);
@@ -10,9 +10,9 @@
  *     }
  *     iso_rows_free(&rows);
  *
- * Two-point Taylor quadrature (method/two_point_impl.h) measures a gap in about a microsecond. It is certain enough where
- * two rows are near each other, and nothing but the six numbers of the model moves. Elsewhere the orbit of the row
- * before is integrated.
+ * Two-point Taylor quadrature (method/two_point_impl.h) measures a gap in about a microsecond. It is certain enough
+ * where two rows are near each other, and nothing but the six numbers of the model moves. Elsewhere the orbit of the
+ * row before is integrated.
  */
 #ifndef ISO_ORBIT_ROWS_IMPL_H
 #define ISO_ORBIT_ROWS_IMPL_H
@@ -55,8 +55,8 @@ static inline void iso_row_state(const int columns[], iso_model_kind model, cons
     for (int i = 0; i < ISO_STATE; i++) y[i] = row[columns[first + i]];
 }
 
-/* The first row of an orbit, which that orbit begins at; rows before are forgotten. orbit NULL: it is not known, so that
- * each gap is integrated. tolerance: relative error of a clock's gain. Errors: ISO_NO_MEMORY. */
+/* The first row of an orbit, which that orbit begins at; rows before are forgotten. orbit NULL: it is not known, so
+ * that each gap is integrated. tolerance: relative error of a clock's gain. Errors: ISO_NO_MEMORY. */
 iso_status iso_rows_begin(iso_rows *rows, const iso_orbit *orbit, const double first[], double tolerance);
 void iso_rows_free(iso_rows *rows);
 

@@ -9,8 +9,8 @@
 
 /* The studies and their options. Each stands in the room of its study. Their tables: of chaos the orbits and both
  * traces; of periodic the orbits, the branches or the chart; of section the crossings, and those that the point finds,
- * or the areas; of splitting, prove and cost their rows; of compare the differences, and those of ball and point from the
- * closed solution; of check the residuals. Those of the others have no rows. */
+ * or the areas; of splitting, prove and cost their rows; of compare the differences, and those of ball and point from
+ * the closed solution; of check the residuals. Those of the others have no rows. */
 #define ISO_STUDY_LIST(X) X(run) X(convert) ISO_INSTRUMENT_LIST(X) X(compare) X(check) X(explain)
 /* Those that have a command in the group "study" of the command's help, in its order. */
 #define ISO_INSTRUMENT_LIST(X)                                                                                       \

@@ -79,8 +79,8 @@ iso_status iso_study_answer(iso_context *ctx, const iso_study *study, const iso_
     return status == ISO_OK ? told : status;
 }
 
-/* "isoroll chaos --turns 500 --starts 20 scene.yaml": what makes the table again. Options that change no number are left
- * out. NULL: no memory. */
+/* "isoroll chaos --turns 500 --starts 20 scene.yaml": what makes the table again. Options that change no number are
+ * left out. NULL: no memory. */
 static char *command_of(const iso_study *study, const char *name, const char *options)
 {
     iso_memory memory;

@@ -169,7 +169,8 @@ static void check_convert(const iso_scene *scene)
     iso_record_free(read);
 }
 
-/* --- what each study needs, and does not take ---------------------------------------------------------------------- */
+/* --- what each study needs, and does not take
+ * ---------------------------------------------------------------------- */
 
 static void check_subjects(const iso_scene *scene)
 {

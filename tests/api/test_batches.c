@@ -37,8 +37,8 @@ static void check_batch(const iso_scene *const *scene)
     }
 }
 
-/* A batch of one is the orbit by itself. A point whose start is replaced keeps the eps of the scene, if that states one;
- * else it has its own, with H = 0. */
+/* A batch of one is the orbit by itself. A point whose start is replaced keeps the eps of the scene, if that states
+ * one; else it has its own, with H = 0. */
 static void check_one(const char *text, const char *other, const double y[6])
 {
     double got[2][2 * WIDTH], wanted[2 * WIDTH];

@@ -1,5 +1,5 @@
-/* How often the error of an exponent (lib/instrument/chaos/indicators.h) covers: many orbits of one chaotic sea, against the mean
- * of all of them over a long time.
+/* How often the error of an exponent (lib/instrument/chaos/indicators.h) covers: many orbits of one chaotic sea,
+ * against the mean of all of them over a long time.
  *
  *     bench_exponent [ORBITS] [TURNS] [SEED]      orbits that begin on the section (default 150), turns of each
  *                                                 (default 32000)

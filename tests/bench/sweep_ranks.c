@@ -9,8 +9,8 @@
  * table says), and what a row costs the writer, in FILE.part and in the result.
  *
  * Simulated: every rank fetches a chunk, computes it, and waits until rank 0 has written it. The counter serves one
- * rank at a time, and so does rank 0, which looks for messages every millisecond when it has none. Each rank computes 100
- * chunks; the time until the first rank finds no chunk gives the rate, what follows is the tail. A day's work is a
+ * rank at a time, and so does rank 0, which looks for messages every millisecond when it has none. Each rank computes
+ * 100 chunks; the time until the first rank finds no chunk gives the rate, what follows is the tail. A day's work is a
  * day at this rate, the tail, and the writing of the result.
  */
 #include <unistd.h>

@@ -1,5 +1,6 @@
 /* The closed solution of a ball with a rotor: three equal moments with any K, two with K along the third axis, and a
- * principal plane at right angles to K, against long double; what it is without a rotor; its momenta; where there is none. */
+ * principal plane at right angles to K, against long double; what it is without a rotor; its momenta; where there is
+ * none. */
 #include "exact_orbits.h"
 
 static iso_context *ctx;
@@ -16,8 +17,8 @@ static void set_rotor(orbit *o, const double K[3])
     orbit_clocks(o, ISO_CLOCK_S, true, true, false);
 }
 
-/* The i-th orbit: k = 1, -1, or of either sign from 1/5 to 5; |K| from 1e-3 to 3 times k^2 |M| and a moment; every third
- * one is off the level H = 0. */
+/* The i-th orbit: k = 1, -1, or of either sign from 1/5 to 5; |K| from 1e-3 to 3 times k^2 |M| and a moment; every
+ * third one is off the level H = 0. */
 static orbit random_orbit(family kind, int i, iso_random *random)
 {
     orbit o = {.ctx = ctx, .model.system = &iso_system_point};

@@ -102,7 +102,8 @@ static worst measure(const hard_road *way, bool energy_alone)
 
 /* Taylor series and the closed solution: rounding, times the condition. Others: a tolerance a step, of which there
  * are some hundreds, times the condition; or, of methods of several steps, which carry each on, 3e4 tolerances in a
- * few turns. What cannot be projected promises its energy alone, to a thousandth or 1e4 tolerances (orbit.c), in such bodies. */
+ * few turns. What cannot be projected promises its energy alone, to a thousandth or 1e4 tolerances (orbit.c), in such
+ * bodies. */
 static double bound_of(const hard_road *way, double rounding, double ratio)
 {
     if (!way->method || strncmp(way->method->name, "taylor", 6) == 0) return rounding;

@@ -26,8 +26,8 @@ static iso_status parse(const char *text, iso_scene *scene)
     return iso_scene_load_text(ctx, "s.yaml", text, strlen(text), scene);
 }
 
-/* Scenes with one mistake each (tests/cli/bad_files.txt): the first line of a file tells where it is, and a part of what
- * is said about it. The orbit, not the file, is at fault where a scene can be read: tests/cli/bad_files.sh. */
+/* Scenes with one mistake each (tests/cli/bad_files.txt): the first line of a file tells where it is, and a part of
+ * what is said about it. The orbit, not the file, is at fault where a scene can be read: tests/cli/bad_files.sh. */
 static bool check_mistake(const char *name)
 {
     char path[512], text[4096] = "", expected[512], *words;

@@ -1,5 +1,6 @@
-/* test_scene_print.c - the law of scenes as text: what is printed reads as the same scene, to the bit, and prints as the
- * same text. For the scenes of all files of examples and tests, for odd ones, and for random ones over every effect. */
+/* test_scene_print.c - the law of scenes as text: what is printed reads as the same scene, to the bit, and prints as
+ * the same text. For the scenes of all files of examples and tests, for odd ones, and for random ones over every
+ * effect. */
 #define _GNU_SOURCE /* nftw */
 #include <ftw.h>
 

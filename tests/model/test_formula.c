@@ -1,5 +1,5 @@
-/* Formulas (model/formula/formula.h): every operation gives the value it is named for, and one that cannot be computed is
- * refused: no room, omega' where it is not known, states without a rate. */
+/* Formulas (model/formula/formula.h): every operation gives the value it is named for, and one that cannot be
+ * computed is refused: no room, omega' where it is not known, states without a rate. */
 #include "laws.h"
 #include "model/formula/formula_impl.h"
 

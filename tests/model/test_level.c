@@ -261,7 +261,8 @@ static const iso_integral *ball_integral(const effects_case *c, const char *name
     return laws_integral(&iso_system_ball, name);
 }
 
-/* F_plane, F_shell, F_axis and those of the rotor are the same functions of the orbit in both pictures, on every level. */
+/* F_plane, F_shell, F_axis and those of the rotor are the same functions of the orbit in both pictures, on every
+ * level. */
 static void integrals_mapped(const effects_case *c, laws_worst *worst)
 {
     const iso_integral *list[ISO_MAX_INTEGRALS];

@@ -279,8 +279,8 @@ static void check_refusals(void)
     refused(r, ISO_BALL, ISO_BAD_INPUT, "eps", "an eps that is no number");
 }
 
-/* Rows that the orbit through the row before misses, and times that turn back, are counted, and converted as they stand:
- * a damaged row in the middle is missed, and misses the next. The others are the same to the bit. */
+/* Rows that the orbit through the row before misses, and times that turn back, are counted, and converted as they
+ * stand: a damaged row in the middle is missed, and misses the next. The others are the same to the bit. */
 static void check_missed(void)
 {
     const struct {

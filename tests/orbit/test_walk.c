@@ -1,5 +1,5 @@
-/* The walk of many orbits, lib/orbit/walk_impl.h: the same stops in the same order for all groups, rounds and threads; an
- * orbit that fails ends alone; a stop keeps what is found. */
+/* The walk of many orbits, lib/orbit/walk_impl.h: the same stops in the same order for all groups, rounds and
+ * threads; an orbit that fails ends alone; a stop keeps what is found. */
 #include "laws.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/walk_impl.h"

@@ -91,8 +91,8 @@ static iso_status follow(const iso_effects *e, const char *method, double time, 
     return status;
 }
 
-/* The same by equal steps of rk8pd, which keep no energy and ask nobody about it. Steps are a tenth of the time in which
- * the ball crosses a patch, so their error is below 1e-8. */
+/* The same by equal steps of rk8pd, which keep no energy and ask nobody about it. Steps are a tenth of the time in
+ * which the ball crosses a patch, so their error is below 1e-8. */
 static void follow_single(const iso_effects *e, double time, double step, double y[ISO_STATE])
 {
     const iso_method_options options = {.tolerance = 1e-13, .fixed_step = step, .no_projection = true};
@@ -121,7 +121,8 @@ static double apart(const double a[ISO_STATE], const double b[ISO_STATE])
     return most;
 }
 
-/* M = B x omega, and in the patch `much` times the torque of `kind`: resistance, a push, or another torque B' x omega. */
+/* M = B x omega, and in the patch `much` times the torque of `kind`: resistance, a push, or another torque B' x
+ * omega. */
 typedef struct patched {
     char M[3][TEXT], smooth[3][TEXT];
     int kind;

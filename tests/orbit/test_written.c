@@ -120,7 +120,8 @@ static pair rotor(bool physical, double k)
     return c;
 }
 
-/* The state after 5 own units of time, by 250 fixed steps where the method takes them; false: it does not take the model.
+/* The state after 5 own units of time, by 250 fixed steps where the method takes them; false: it does not take the
+ * model.
  */
 static bool state_of(const pair *c, const iso_effects *effects, iso_backend backend, const iso_method *method,
                      double y[])

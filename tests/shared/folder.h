@@ -1,4 +1,5 @@
-/* folder.h - a folder of the test's own in /tmp, and files in it. mkdtemp(folder) makes it, rmdir(folder) takes it away. */
+/* folder.h - a folder of the test's own in /tmp, and files in it. mkdtemp(folder) makes it, rmdir(folder) takes it
+ * away. */
 #ifndef ISO_TESTS_FOLDER_H
 #define ISO_TESTS_FOLDER_H
 

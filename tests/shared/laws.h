@@ -38,8 +38,8 @@ void laws_stop_if(const iso_context *ctx, bool failed, const char *what);
 /* Parameters that are known to be valid; ends the test when they are refused. */
 iso_params laws_params(double k, const double J[3]);
 
-/* A random valid state of order one of the ball or the point, which is on the level H = 0 and turns by about a radian in
- * a unit of time; sets f->eps and f->energy to match (f->p given). */
+/* A random valid state of order one of the ball or the point, which is on the level H = 0 and turns by about a radian
+ * in a unit of time; sets f->eps and f->energy to match (f->p given). */
 void laws_sample(const iso_system *system, iso_problem *f, iso_random *r, double y[ISO_STATE]);
 
 typedef struct laws_case {

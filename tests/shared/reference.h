@@ -1,4 +1,5 @@
-/* reference.h - the rows of reference/free_ball.csv, quadruple-precision states of the free ball; rows of other files. */
+/* reference.h - the rows of reference/free_ball.csv, quadruple-precision states of the free ball; rows of other
+ * files. */
 #ifndef ISO_TESTS_REFERENCE_H
 #define ISO_TESTS_REFERENCE_H
 

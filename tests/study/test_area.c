@@ -1,5 +1,5 @@
-/* section --area: det D of returns is 1 where the area dL dl is kept, and is not where energy is lost; the bound that is
- * printed covers the error. */
+/* section --area: det D of returns is 1 where the area dL dl is kept, and is not where energy is lost; the bound that
+ * is printed covers the error. */
 #include "instrument/section/section_impl.h"
 #include "laws.h"
 

@@ -1,5 +1,5 @@
-/* Following periodic orbits (lib/instrument/periodic/continuation.h): points of a branch are periodic orbits, events are where
- * their law says, branches that meet agree; refusals. */
+/* Following periodic orbits (lib/instrument/periodic/continuation.h): points of a branch are periodic orbits, events
+ * are where their law says, branches that meet agree; refusals. */
 #define _GNU_SOURCE /* functions of _Float128 */
 #include "instrument/periodic/continuation.h"
 #include "periodics.h"

@@ -1,4 +1,5 @@
-/* Exponent, MEGNO, GALI_2 and the verdict of lib/instrument/chaos/indicators.h, on maps of the plane with exact derivatives. */
+/* Exponent, MEGNO, GALI_2 and the verdict of lib/instrument/chaos/indicators.h, on maps of the plane with exact
+ * derivatives. */
 #include "base/math_impl.h"
 #include "instrument/chaos/chaos_impl.h"
 #include "laws.h"

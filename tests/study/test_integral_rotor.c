@@ -1,5 +1,5 @@
-/* The search for first integrals of a ball with a rotor (instrument/integrals/integrals.h): it finds those that are known, and
- * nothing else; its functions do not depend on the rotor; units do not matter. */
+/* The search for first integrals of a ball with a rotor (instrument/integrals/integrals.h): it finds those that are
+ * known, and nothing else; its functions do not depend on the rotor; units do not matter. */
 #include "orbit/orbit_impl.h"
 #include "searches.h"
 

@@ -1,5 +1,5 @@
-/* The search for first integrals (instrument/integrals/integrals.h): it finds those that are known, and no others; what is doubtful
- * is called undecided; values depend on k and the ratio of the moments alone; what is refused. */
+/* The search for first integrals (instrument/integrals/integrals.h): it finds those that are known, and no others;
+ * what is doubtful is called undecided; values depend on k and the ratio of the moments alone; what is refused. */
 #include "io/scene_file.h"
 #include "orbit/orbit_impl.h"
 #include "searches.h"

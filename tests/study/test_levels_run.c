@@ -86,7 +86,8 @@ static void find_integrals(law *k)
         if (i->name[0] == 'F' && (!i->holds || i->holds(&k->problem))) k->integral[k->count++] = i;
 }
 
-/* Random scenes: k, J (of some bodies equal), H; points, and balls with the effect `level`; by the ball, the point, and both. */
+/* Random scenes: k, J (of some bodies equal), H; points, and balls with the effect `level`; by the ball, the point,
+ * and both. */
 static void check_rows(void)
 {
     static const double ks[] = {0.5, -0.5, 1, -1, 2, -2};

@@ -1,10 +1,10 @@
-/* The invariant measure (10): a cloud of states keeps it under the flow in t and in s. Another exponent is not kept, and
- * a ball that loses energy does not keep it.
+/* The invariant measure (10): a cloud of states keeps it under the flow in t and in s. Another exponent is not kept,
+ * and a ball that loses energy does not keep it.
  *
  * States on one level of the energy are drawn evenly in n and in the direction theta of v = J^(1/2) omega across
- * J^(-1/2) n. There the measure is g^(a/(2k) - 1/2) dn dtheta in t and g^(-3/2) in s, with a = 1. So each state has this
- * weight, and the mean of weight (f(later) - f(start)) is 0 for every function f of the state. It is compared with its
- * standard error. */
+ * J^(-1/2) n. There the measure is g^(a/(2k) - 1/2) dn dtheta in t and g^(-3/2) in s, with a = 1. So each state has
+ * this weight, and the mean of weight (f(later) - f(start)) is 0 for every function f of the state. It is compared
+ * with its standard error. */
 #include "laws.h"
 #include "orbit/batch.h"
 

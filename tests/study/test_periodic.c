@@ -118,8 +118,9 @@ static bool has(const iso_periodic *f, const iso_periodic_orbit *o)
     return false;
 }
 
-/* How many orbits of a list are not in the other one; the easy ones are those that Newton's method from a grid can find:
- * very unstable orbits attract few points of the grid, and with a trace near 2 there are many next to each other. */
+/* How many orbits of a list are not in the other one; the easy ones are those that Newton's method from a grid can
+ * find: very unstable orbits attract few points of the grid, and with a trace near 2 there are many next to each
+ * other. */
 static int missing(const iso_periodic *of, const iso_periodic *in, bool easy, const char *where, double k,
                    const double J[3])
 {

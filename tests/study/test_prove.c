@@ -1,5 +1,5 @@
-/* Enclosures of the splitting, lib/instrument/prove/prove_impl.h: laws at k = 1 and -1, known values, the same number as
- * the splitting that is measured, refusals. */
+/* Enclosures of the splitting, lib/instrument/prove/prove_impl.h: laws at k = 1 and -1, known values, the same number
+ * as the splitting that is measured, refusals. */
 #include "instrument/prove/prove_impl.h"
 #include "instrument/separatrix/separatrix.h"
 #include "io/scene_file.h"

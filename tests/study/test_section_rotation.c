@@ -1,5 +1,5 @@
-/* iso_section_rotation: circles whose number is known, mirror images, the frequencies of the closed solution; chaos, and
- * too few crossings, have none. */
+/* iso_section_rotation: circles whose number is known, mirror images, the frequencies of the closed solution; chaos,
+ * and too few crossings, have none. */
 #include "instrument/frequencies/frequencies.h"
 #include "instrument/section/section_impl.h"
 #include "studies.h"

@@ -1,5 +1,5 @@
-/* iso_section_run (instrument/section/section.h): its rows equal the crossings of each orbit computed separately; starts, both
- * models, refusals, and the rows that stay when a sink, the monitor or a failure ends the work. */
+/* iso_section_run (instrument/section/section.h): its rows equal the crossings of each orbit computed separately;
+ * starts, both models, refusals, and the rows that stay when a sink, the monitor or a failure ends the work. */
 #include <limits.h>
 
 #include "instrument/section/section_impl.h"

@@ -1,5 +1,5 @@
-/* The starts and the interval of lib/instrument/chaos/share.c: how often the interval holds the true share, for sets of many
- * shapes whose share of the section's area is known. */
+/* The starts and the interval of lib/instrument/chaos/share.c: how often the interval holds the true share, for sets
+ * of many shapes whose share of the section's area is known. */
 #include "base/math_impl.h"
 #include "instrument/chaos/chaos_impl.h"
 #include "laws.h"

@@ -1,5 +1,5 @@
-/* The splitting (lib/instrument/separatrix/separatrix.h) where the problem is integrable, k = 1 and k = -1: m is 0 there for all J
- * and on all levels, so it is below its error, with 64 bits and with 128. */
+/* The splitting (lib/instrument/separatrix/separatrix.h) where the problem is integrable, k = 1 and k = -1: m is 0
+ * there for all J and on all levels, so it is below its error, with 64 bits and with 128. */
 #include "instrument/separatrix/separatrix.h"
 #include "studies.h"
 

@@ -1,6 +1,6 @@
-/* The theorem of doc/why_only_one.md where 1/k is odd: the third variation. Orbits next to the rotation about the middle
- * axis are followed in complex time, twice round a singular point. To first order they come home. To third order they
- * do not, unless the ball is integrable: by how much, a residue tells, of which the orbits know nothing.
+/* The theorem of doc/why_only_one.md where 1/k is odd: the third variation. Orbits next to the rotation about the
+ * middle axis are followed in complex time, twice round a singular point. To first order they come home. To third
+ * order they do not, unless the ball is integrable: by how much, a residue tells, of which the orbits know nothing.
  *
  *     x = (c1 + i c3)/(c1 - i c3), Y = c2/(c1 - i c3); k > 0: c = gamma, geodesics of arc length; k < 0: c = n, (9).
  *     The rotation is Y = 0; the singular point is x = 0. Y is p y_p + z y_z, y_p = 1 + ..., y_z = x^(1 - |1/k|/2) (1

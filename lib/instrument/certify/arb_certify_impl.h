@@ -47,8 +47,8 @@ void certify_ball_init(certify_ball *b, slong bits);
 void certify_ball_clear(certify_ball *b);
 void certify_ball_set(certify_ball *b, const certify_exact *e); /* k and J alone */
 
-/* Sets b, its energies among it, and returns the start of `model` in y, vector first, then the unit vector: n is made a unit
- * vector, and omega loses its part along it. */
+/* Sets b, its energies among it, and returns the start of `model` in y, vector first, then the unit vector: n is made
+ * a unit vector, and omega loses its part along it. */
 void certify_start(const certify_exact *e, iso_model_kind model, certify_ball *b, arb_ptr y);
 
 /* --- arb_equations.c --------------------------------------------------------------------------------------------- */

@@ -186,7 +186,8 @@ static void energy_of_ball(const certify_ball *b, arb_srcptr y, arb_t h)
     _arb_vec_clear(g, 2);
 }
 
-/* eps = q^(1/k) M^2/2 on the level H = 0; with another eps, H = M^2/2 - eps q^(-1/k), and c = kappa H. h = kappa eps. */
+/* eps = q^(1/k) M^2/2 on the level H = 0; with another eps, H = M^2/2 - eps q^(-1/k), and c = kappa H. h = kappa
+ * eps. */
 static void energies_of_point(const certify_exact *e, certify_ball *b, arb_srcptr y)
 {
     arb_ptr q = _arb_vec_init(3), kinetic = q + 1, x = q + 2;

@@ -1,5 +1,5 @@
-/* chaos_walk.c - follows the orbits of chaos.h (orbit/walk_impl.h). In each round the orbits that have not ended go on to
- * the next look. The point goes first, then the ball. */
+/* chaos_walk.c - follows the orbits of chaos.h (orbit/walk_impl.h). In each round the orbits that have not ended go
+ * on to the next look. The point goes first, then the ball. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

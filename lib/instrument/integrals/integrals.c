@@ -66,8 +66,8 @@ static iso_status check_options(iso_context *ctx, iso_integral_search_options *o
 
 /* --- integrals that are known ----------------------------------------------------------------------------------- */
 
-/* The distance of a known integral, less its mean, from the functions found in this part, by the size of what it varies.
- * NaN: it is a constant, to rounding. work: room for a number of each sample. */
+/* The distance of a known integral, less its mean, from the functions found in this part, by the size of what it
+ * varies. NaN: it is a constant, to rounding. work: room for a number of each sample. */
 static double residual_of(const search *s, const iso_integral *known, const integral_part *part, double *work)
 {
     const size_t rows = s->samples.rows;

@@ -19,9 +19,9 @@
  * q^(-1/k) is M^2/2 - E, and the same functions are looked at. What is constant on one level need not be constant on
  * others.
  *
- * With a rotor (on the point a magnetic field, model/effects/effect_rotor.c) the field turns over with M: an integral for all K
- * is a sum of ones that are homogeneous in M, sqrt(h) and K. At one K the numbers h and K count for nothing. v =
- * q^(-1/(2k)) stands beside K in the integrals that are known. So
+ * With a rotor (on the point a magnetic field, model/effects/effect_rotor.c) the field turns over with M: an integral
+ * for all K is a sum of ones that are homogeneous in M, sqrt(h) and K. At one K the numbers h and K count for
+ * nothing. v = q^(-1/(2k)) stands beside K in the integrals that are known. So
  *
  *     V_d:  sums of v^c M^a gamma^b,    |a| + c <= d,    c <= 1,    |b| <= E         (v^2 is M^2, up to numbers)
  *
@@ -29,11 +29,11 @@
  *
  * The search. Orbits start spread evenly over a global section (map/section.h), with one value of eps. Each is
  * sampled at many times. The functions are columns, the samples rows. Relations that hold on the surface (|gamma| =
- * 1, (M, gamma) = 0, the level) make columns dependent. The method of Gram and Schmidt, the largest column first, keeps an
- * independent set and makes an orthonormal basis Q of V_d on the samples. From each column of Q its mean over each
- * orbit is taken away. The singular values of what is left are the sines of the angles between V_d and the functions
- * that are constant on orbits: 0 for an integral. A value is the root mean square of the variation of a function
- * along orbits, if the root mean square of the function itself is 1.
+ * 1, (M, gamma) = 0, the level) make columns dependent. The method of Gram and Schmidt, the largest column first,
+ * keeps an independent set and makes an orthonormal basis Q of V_d on the samples. From each column of Q its mean
+ * over each orbit is taken away. The singular values of what is left are the sines of the angles between V_d and the
+ * functions that are constant on orbits: 0 for an integral. A value is the root mean square of the variation of a
+ * function along orbits, if the root mean square of the function itself is 1.
  *
  * Reflections gamma_i -> -gamma_i split V_d into eight parts, by the parity of a_i + b_i for i = 1, 2, 3. Integrals
  * can be chosen in one part each; the parts are searched one by one. With a rotor that has K_i there are fewer parts:

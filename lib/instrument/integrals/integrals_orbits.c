@@ -12,7 +12,8 @@
 #include "orbit/batch.h"
 
 /* A time unit with which |M| <= 1, so that no power of it overflows: M^2/2 = H + eps q^(-1/k) has its largest value
- * at the smallest or at the largest q. On H = 0 then eps = 1/2: a free ball's does not matter, and can be 0. unit: of J. */
+ * at the smallest or at the largest q. On H = 0 then eps = 1/2: a free ball's does not matter, and can be 0. unit: of
+ * J. */
 static iso_status choose_level(iso_context *ctx, const iso_problem *scene, double unit, iso_problem *f)
 {
     const double k = f->p.k, *J = f->p.J, H = scene->energy;
@@ -94,7 +95,7 @@ static void go_to_level(const iso_problem *f, double y[ISO_STATE], double off)
     remove_along(y, y + 3);
 }
 
-/* Takes rounding errors across the surface away: on it, some functions are zero. Gives the error of the energy,
+/* Takes rounding errors across the surface away: on it, some functions are zero. Returns the error of the energy,
  * relative to its terms. */
 static double move_to_surface(const iso_problem *f, double y[ISO_STATE])
 {

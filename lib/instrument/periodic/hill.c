@@ -30,8 +30,8 @@ static double level_at(double k, double energy, double q)
     return 1 + energy * pow(q, 1 / k);
 }
 
-/* q = m + d cos 2 phi. ratio: m/|d|; swing: J_i/(k min q). 1 + E q^(1/k) = 0 where ln q = -k ln |E| + i k pi n, n odd for
- * E > 0 and even for E < 0; where q goes round its zero farther than arg = 3 pi/2 no disc of convergence comes. */
+/* q = m + d cos 2 phi. ratio: m/|d|; swing: J_i/(k min q). 1 + E q^(1/k) = 0 where ln q = -k ln |E| + i k pi n, n odd
+ * for E > 0 and even for E < 0; where q goes round its zero farther than arg = 3 pi/2 no disc of convergence comes. */
 static hill_pace pace_of(double k, double m, double d, double energy, double ratio, double swing)
 {
     hill_pace s = {.points = 0};

@@ -60,9 +60,9 @@ static void set_power(arb_t x, double power)
     arf_set_si_2exp_si(arb_midref(x), 1, arf_get_si(arb_midref(x), ARF_RND_NEAR));
 }
 
-/* The piece is at least as long as what is left of the change of the start with k, in all half returns, beside its drift:
- * of second order. *reached: m is enclosed. If not, but the piece came to the line, it was too short for its noise: a
- * longer one is tried. */
+/* The piece is at least as long as what is left of the change of the start with k, in all half returns, beside its
+ * drift: of second order. *reached: m is enclosed. If not, but the piece came to the line, it was too short for its
+ * noise: a longer one is tried. */
 static iso_status follow(attempt *a, bool *reached)
 {
     enum { TRIES = 3 };

@@ -1,4 +1,5 @@
-/* arb_flow_impl.h - the free ball in arc length, enclosed: Taylor series with bounds for what is left out, half returns.
+/* arb_flow_impl.h - the free ball in arc length, enclosed: Taylor series with bounds for what is left out, half
+ * returns.
  *
  * The orbit is the curve gamma(s) on the sphere, s its arc length. u = gamma', b = gamma x u, and
  *

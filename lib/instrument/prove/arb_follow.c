@@ -1,16 +1,17 @@
 /* arb_follow.c - a piece of the unstable manifold, enclosed from near O to the line l = pi/2 (arb_manifold_impl.h).
  *
  * After each half return, or part of one, the piece lies in the set centre + dk C + A (xi, eta), (xi, eta) in `hull`,
- * where centre, C (`drift`) and A are exact; dk = k - k_0, and k_0 is a number of the interval of k. The left and the right
- * end lie in `left` and `right` of this frame, and for each k the piece is a curve with the tangent (1, sigma), on which
- * xi grows from left to right. With D the derivative on the whole set, E that by k, and P(centre) enclosed by itself for
- * k_0 (P: the half return, or its part), the mean value theorem gives, as the set is convex and holds its centre,
+ * where centre, C (`drift`) and A are exact; dk = k - k_0, and k_0 is a number of the interval of k. The left and the
+ * right end lie in `left` and `right` of this frame, and for each k the piece is a curve with the tangent (1, sigma),
+ * on which xi grows from left to right. With D the derivative on the whole set, E that by k, and P(centre) enclosed
+ * by itself for k_0 (P: the half return, or its part), the mean value theorem gives, as the set is convex and holds
+ * its centre,
  *
  *     P(centre + dk C + A v) in P(centre) + dk (D C + E) + (D A) v.
  *
  * The next centre is near P(centre), the next C near D C + E, the next A near D A. So v becomes B v + e, where
- * B = A_next^-1 D A is near 1, and e = A_next^-1 (P(centre) - centre_next + dk (D C + E - C_next)) near 0. sigma becomes
- * (B21 + B22 sigma)/(B11 + B12 sigma). If there is one k only, dk = 0, and there is no C.
+ * B = A_next^-1 D A is near 1, and e = A_next^-1 (P(centre) - centre_next + dk (D C + E - C_next)) near 0. sigma
+ * becomes (B21 + B22 sigma)/(B11 + B12 sigma). If there is one k only, dk = 0, and there is no C.
  */
 #include <math.h>
 
@@ -143,8 +144,8 @@ static iso_status enclose(prove_flow *f, prove_flow *thin, prove_part part, cons
     return status;
 }
 
-/* Where both columns of A are nearly parallel, the second is made orthogonal to the first; the determinant stays. Angles
- * are those of (l, x/scale): near O the manifolds have the slopes +-scale, which may be small. */
+/* Where both columns of A are nearly parallel, the second is made orthogonal to the first; the determinant stays.
+ * Angles are those of (l, x/scale): near O the manifolds have the slopes +-scale, which may be small. */
 static void spread_frame(arb_struct A[4], const arb_t scale, slong bits)
 {
     arb_ptr determinant = _arb_vec_init(3), size = determinant + 1, other = determinant + 2;

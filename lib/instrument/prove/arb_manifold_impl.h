@@ -1,5 +1,5 @@
-/* arb_manifold_impl.h - the rotation O about the middle axis and its unstable manifold, from O to the line l = pi/2; one
- * proof of a ball in exact numbers. */
+/* arb_manifold_impl.h - the rotation O about the middle axis and its unstable manifold, from O to the line l = pi/2;
+ * one proof of a ball in exact numbers. */
 #ifndef ISO_STUDY_PROVE_ARB_MANIFOLD_IMPL_H
 #define ISO_STUDY_PROVE_ARB_MANIFOLD_IMPL_H
 
@@ -13,8 +13,8 @@ typedef struct prove_local {
     arb_t slope;
 } prove_local;
 
-/* Where the manifold meets l = pi/2: start xi (exact), and the number of half returns from there. For another k the start
- * is xi + drift dk, about. */
+/* Where the manifold meets l = pi/2: start xi (exact), and the number of half returns from there. For another k the
+ * start is xi + drift dk, about. */
 typedef struct prove_start {
     arb_t xi, drift;
     long halves;

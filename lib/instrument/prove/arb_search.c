@@ -111,8 +111,8 @@ static iso_status refine_piece(const prove_flow *f, const prove_local *o, int i,
 /* --- to all digits ---------------------------------------------------------------------------------------------- */
 
 /* The secant method for ln xi, until what is left is about a rounding error: an error e becomes e^1.6. Numbers have as
- * many bits as will be known, and the orbit begins so near to O as these ask for: where the manifold, which is odd, is the
- * line eta = 0 to a part 2^-close of xi. */
+ * many bits as will be known, and the orbit begins so near to O as these ask for: where the manifold, which is odd,
+ * is the line eta = 0 to a part 2^-close of xi. */
 static iso_status refine(const prove_flow *f, const prove_local *o, double slope, prove_start *start)
 {
     enum { KNOWN = 44, SPARE = 36 };

@@ -83,8 +83,8 @@ typedef struct plan {
 } plan;
 
 /* The digits that are asked for; or 18, 36, 72, without those that are too few for an m of the expected size; or, if it
- * is smaller than all of these show, enough for it. As m can change by as much as k does, an interval asks for some more
- * digits than its length has. */
+ * is smaller than all of these show, enough for it. As m can change by as much as k does, an interval asks for some
+ * more digits than its length has. */
 static iso_status make_plan(iso_context *ctx, const iso_proof_ball *ball, const iso_prove_request *r, plan *p)
 {
     enum { LARGER = 6, SPARE = 12 };

@@ -82,13 +82,13 @@ typedef struct iso_section_result {
     size_t parted_orbit, parted_crossing; /* the orbit that parts at the lowest crossing number, and the crossing */
 } iso_section_result;
 
-/* Rows go to the sink, and to new records if `tables` is not NULL: of table 0 by orbit, then by crossing. If both models
- * are integrated, a crossing that both have is a row of table 1, too: as the point finds it, in the columns orbit,
- * crossing, t, tau, s, l, x, just behind the row of table 0. Notes: the section is not global, ...
+/* Rows go to the sink, and to new records if `tables` is not NULL: of table 0 by orbit, then by crossing. If both
+ * models are integrated, a crossing that both have is a row of table 1, too: as the point finds it, in the columns
+ * orbit, crossing, t, tau, s, l, x, just behind the row of table 0. Notes: the section is not global, ...
  *
- * The rows of table 0 have the columns orbit (from 0), crossing (from 1), t; tau and s if the orbit has both models; l and x
- * unless the section is an event; then the states that are shown. The ball's states include the columns of effects.
- * With both models the rows are the ball's.
+ * The rows of table 0 have the columns orbit (from 0), crossing (from 1), t; tau and s if the orbit has both models;
+ * l and x unless the section is an event; then the states that are shown. The ball's states include the columns of
+ * effects. With both models the rows are the ball's.
  * - If an orbit fails, its earlier rows stay, and the other orbits go on. If no orbit has a row, the call returns the
  *   failure of the first one. Else it returns ISO_OK, and result->failed is the number of orbits that failed.
  * - The context's monitor can stop the work: earlier rows stay.

@@ -42,9 +42,9 @@ static const char *verdict_of(const iso_section_area *a, bool lost)
     return a->worst > BEYOND * a->bound ? "not kept" : a->worst <= a->bound && !lost ? "kept" : "undecided";
 }
 
-/* Effects that have states of their own move in more than the four dimensions of (omega, n). Where the energy is neither
- * constant nor lost, D compares areas on levels of different energies, and says nothing of the measure (10), which has
- * four dimensions. */
+/* Effects that have states of their own move in more than the four dimensions of (omega, n). Where the energy is
+ * neither constant nor lost, D compares areas on levels of different energies, and says nothing of the measure (10),
+ * which has four dimensions. */
 static iso_status check_effects(const iso_section_walk *w)
 {
     const iso_model *m = iso_orbit_model(w->orbit);

@@ -46,8 +46,8 @@ static double average(const double angle[], size_t from, size_t to, double cut)
     return sum / weights + cut / (2 * M_PI);
 }
 
-/* How much the angles turn from one to the next, from 0 to 1/2, as the mirror image of an orbit turns the other way; NaN
- * if both halves do not tell the same. `work` has the same room. */
+/* How much the angles turn from one to the next, from 0 to 1/2, as the mirror image of an orbit turns the other way;
+ * NaN if both halves do not tell the same. `work` has the same room. */
 static double rotation_of(const double angle[], size_t count, double work[])
 {
     double gap;

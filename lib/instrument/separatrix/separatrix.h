@@ -105,8 +105,8 @@ typedef struct iso_separatrix_table {
  * the same k. There the manifolds touch at one point. If they cross at the next one (next_m != 0), there is no
  * additional integral. A failure at one k stands in its row, and is no failure of the call. Errors: ISO_BAD_ARGUMENT
  * (no k; "digits"); ISO_BAD_INPUT about "J", where two moments are equal, and about an effect that acts on the
- * ball, other than `level`; where the scene starts as a point, or has a level, those of iso_orbit_create; ISO_NO_MEMORY;
- * ISO_STOPPED by the context's monitor: *s has the rows that are done. */
+ * ball, other than `level`; where the scene starts as a point, or has a level, those of iso_orbit_create;
+ * ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *s has the rows that are done. */
 iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *options, iso_separatrix_table **s);
 void iso_separatrix_free(void *table);
 

@@ -51,8 +51,8 @@ static iso_status check_trace(const iso_manifold *m, double trace)
                           ISO_SHORT(m->problem.p.k), expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
 }
 
-/* lambda and v from the derivative at the fixed point, whose determinant is 1. Terms of the series are kept to a hundredth
- * of a rounding error. */
+/* lambda and v from the derivative at the fixed point, whose determinant is 1. Terms of the series are kept to a
+ * hundredth of a rounding error. */
 iso_status iso_manifold_use(iso_manifold *m, const iso_return_build *code)
 {
     const iso_wide origin[2] = {0, 0};

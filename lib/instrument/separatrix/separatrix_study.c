@@ -40,8 +40,8 @@ static double rounded(double k, double step)
     return iso_number_read(digits, strlen(digits), &tidy) && fabs(tidy - k) < 1e-15 * fmax(1, fabs(k)) ? tidy : k;
 }
 
-/* Each item is A, or A, A + STEP, ... up to B, which a rounding error does not cut off. STEP goes towards B, whatever its
- * sign. */
+/* Each item is A, or A, A + STEP, ... up to B, which a rounding error does not cut off. STEP goes towards B, whatever
+ * its sign. */
 static iso_status read_list(iso_context *ctx, iso_separatrix_list *list)
 {
     for (const char *c = list->text; c; c = *c ? c + 1 : NULL) {

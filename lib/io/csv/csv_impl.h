@@ -27,9 +27,10 @@ typedef struct iso_csv_lines {
 iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *name, iso_csv_lines *lines);
 void iso_csv_lines_close(iso_csv_lines *lines);
 
-/* The next line without its end; it may hold '\0' and has one behind it, and is valid until the next call. Of one that is
- * longer than `longest` it is a part that is at least as long. *more false: there is none. Errors: ISO_FILE_TROUBLE;
- * ISO_NO_MEMORY; ISO_STOPPED, if a signal comes while a pipe is waited for and the monitor of ctx says so. */
+/* The next line without its end; it may hold '\0' and has one behind it, and is valid until the next call. Of one
+ * that is longer than `longest` it is a part that is at least as long. *more false: there is none. Errors:
+ * ISO_FILE_TROUBLE; ISO_NO_MEMORY; ISO_STOPPED, if a signal comes while a pipe is waited for and the monitor of ctx
+ * says so. */
 iso_status iso_csv_lines_next(iso_context *ctx, iso_csv_lines *lines, size_t longest, char **text, size_t *length,
                               bool *more);
 

@@ -1,5 +1,5 @@
-/* csv_lines.c - the lines of a text file. read() fills a buffer, in which the next line is looked for: a line from a slow
- * pipe is passed on at once. */
+/* csv_lines.c - the lines of a text file. read() fills a buffer, in which the next line is looked for: a line from a
+ * slow pipe is passed on at once. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -112,8 +112,8 @@ iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name
 /* Makes access and transfer of a new store. */
 void iso_hdf5_guard(iso_hdf5_store *s);
 
-/* Why a dataset of this type and size is not read, a text that its name follows; NULL: it may be. size: 0 if its rank is
- * not 1 or 2. Adds to s->chunks. */
+/* Why a dataset of this type and size is not read, a text that its name follows; NULL: it may be. size: 0 if its rank
+ * is not 1 or 2. Adds to s->chunks. */
 const char *iso_hdf5_trouble_of_set(iso_hdf5_store *s, hid_t id, hid_t type, const hsize_t size[2]);
 
 #endif

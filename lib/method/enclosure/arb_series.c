@@ -189,8 +189,8 @@ static void bound_product(const iso_series *s, int a, int b, int c)
     mag_clear(whole);
 }
 
-/* The tail of c from (|b_0| - factor (B_1 + T_b)) T_c = factor ([B_1 C] + T_b C) + T_a; a < 0: T_a is 0. False: b may be
- * 0. */
+/* The tail of c from (|b_0| - factor (B_1 + T_b)) T_c = factor ([B_1 C] + T_b C) + T_a; a < 0: T_a is 0. False: b may
+ * be 0. */
 static bool bound_divided(const iso_series *s, int a, int b, const mag_t factor, int c)
 {
     mag_t top, below, moving;

@@ -50,7 +50,7 @@ typedef struct iso_tape {
 void iso_tape_init(iso_tape *f);
 void iso_tape_clear(iso_tape *f);
 
-/* Each gives the number of the new node. */
+/* Each returns the number of the new node. */
 int iso_tape_state(iso_tape *f);
 int iso_tape_constant(iso_tape *f, const arb_t x);
 int iso_tape_sum(iso_tape *f, int a, int b);

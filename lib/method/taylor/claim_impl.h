@@ -1,8 +1,9 @@
-/* claim_impl.h - whether a step of lanes is an answer: its end is finite, and what the scene claims of a torque holds. */
+/* claim_impl.h - whether a step of lanes is an answer: its end is finite, and what the scene claims of a torque
+ * holds. */
 #include "method/taylor/crossing_impl.h"
 
-/* Where a claim fails within the step, the lane's step ends there, and why[lane] says what is wrong. model: of each lane;
- * NULL: it has none. */
+/* Where a claim fails within the step, the lane's step ends there, and why[lane] says what is wrong. model: of each
+ * lane; NULL: it has none. */
 static void find_false_claims(const form *T, const iso_model *const model[LANES], real *length,
                               const char *why[LANES])
 {

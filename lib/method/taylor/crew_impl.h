@@ -206,7 +206,7 @@ static void find_rows(crew *c, real length, real dt)
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
-/* The number of parts of each lane's step, so that n_axis has at most one zero in each part. Gives the largest
+/* The number of parts of each lane's step, so that n_axis has at most one zero in each part. Returns the largest
  * one. */
 static int find_parts(const crew *c, real length, real *parts)
 {
@@ -391,7 +391,7 @@ static void take_step(crew *c)
     if (c->ended) replace_ended(c);
 }
 
-/* One step of the crews that have jobs. Gives their number. */
+/* One step of the crews that have jobs. Returns their number. */
 static int step_together(crew *const crews[CREWS])
 {
     crew *at_work[CREWS];

@@ -77,8 +77,8 @@ static double variation_between(const walk *k, double a, double b)
     return iso_inside_variation(T->inside, T->model[k->lane], &stretch, T->tolerance / 10);
 }
 
-/* How far omega' or M' of the series at x is from that of the equations. *rounding: how much of this may be rounding: the
- * equations are computed again for a state that differs in its last digits. */
+/* How far omega' or M' of the series at x is from that of the equations. *rounding: how much of this may be rounding:
+ * the equations are computed again for a state that differs in its last digits. */
 static double defect_at(const walk *k, double x, double *speed, double *rounding)
 {
     enum { DIGITS = 16 };

@@ -2,9 +2,9 @@
  *
  * A function f(a) hides nothing where a changes little: what f does in the step shows in its coefficients. The argument
  * of exp or sin changes by at most 8; that of a logarithm, a divisor or the base of a power by at most 95 %, and this
- * times the exponent (of a divisor 1) is at most 4, so a power grows by at most about e^4. a changes by at most sum |a_n|
- * R^n, n from 1 to 12, in the circle of radius R around the left end, which reaches over the right end. Sums and products
- * of a low degree hide nothing by themselves.
+ * times the exponent (of a divisor 1) is at most 4, so a power grows by at most about e^4. a changes by at most sum
+ * |a_n| R^n, n from 1 to 12, in the circle of radius R around the left end, which reaches over the right end. Sums
+ * and products of a low degree hide nothing by themselves.
  */
 
 /* The terms of a that count, the circle in units of the step, and how far exp and sin go, and logarithms and powers. */

@@ -332,7 +332,7 @@ static void start_orbit(form *T, int lane, const iso_model *m, const double y[])
     if (T->second_of || T->loaded) set_integrals(T, lane, m);
 }
 
-/* The state at x of the series (gained: see state_at), with its constraints restored. Gives the relative size of the
+/* The state at x of the series (gained: see state_at), with its constraints restored. Returns the relative size of the
  * corrections. States of effects that no equation moves stay as they are. */
 static real find_state(const form *T, real x, const real gained[], state *s)
 {
@@ -342,8 +342,9 @@ static real find_state(const form *T, real x, const real gained[], state *s)
 }
 
 /* The step of choose_step, halved while its state is far from its constraints and integrals and a half of it is much
- * nearer; the state is then in *after, the correction in *moved. Off its constraints a point's equations are unstable: a
- * step that is right for its smooth orbit may be so long that rounding errors at its left end grow to 1e5 times. */
+ * nearer; the state is then in *after, the correction in *moved. Off its constraints a point's equations are
+ * unstable: a step that is right for its smooth orbit may be so long that rounding errors at its left end grow to 1e5
+ * times. */
 static real choose_near(const form *T, real direction, real gained[], state *after, real *moved)
 {
     const real far = broadcast((NUMBER)ISO_FAR_CORRECTION(T->tolerance / FINER));

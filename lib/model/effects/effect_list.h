@@ -1,7 +1,7 @@
 /* effect_list.h - the registry of effects: one line each, ISO_<ID> and the row iso_effect_<name>.
  *
- * To add an effect, write its row in lib/model/effects/effect_<name>.c and add its line here (lib/README.md shows how). The
- * order is that of the states in a model, of the columns in a trajectory and of the effects in lists.
+ * To add an effect, write its row in lib/model/effects/effect_<name>.c and add its line here (lib/README.md shows
+ * how). The order is that of the states in a model, of the columns in a trajectory and of the effects in lists.
  */
 #ifndef ISO_MODEL_EFFECT_LIST_H
 #define ISO_MODEL_EFFECT_LIST_H

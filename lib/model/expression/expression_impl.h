@@ -97,8 +97,8 @@ typedef struct iso_expression_state {
  * e->at where. */
 bool iso_expression_constants(iso_expression *e, const iso_expression_state *s);
 
-/* Its value. *size: how much it changes, to first order, if n, omega and e are changed by their own lengths, and not less
- * than the value. A relative error d of the state makes an error of order d times this. */
+/* Its value. *size: how much it changes, to first order, if n, omega and e are changed by their own lengths, and not
+ * less than the value. A relative error d of the state makes an error of order d times this. */
 double iso_expression_value(const iso_expression *e, const iso_expression_state *s, double *size);
 
 /* The values of all its nodes. */
@@ -110,16 +110,16 @@ typedef struct iso_expression_box {
     double n, omega, e;
 } iso_expression_box;
 
-/* How much it varies over a box, in radians and factors of e, see expression_range.c. At most 1: it has no narrow feature
- * there. 0: it changes by less than `least`. Infinite: it may have a pole or a corner. */
+/* How much it varies over a box, in radians and factors of e, see expression_range.c. At most 1: it has no narrow
+ * feature there. 0: it changes by less than `least`. Infinite: it may have a pole or a corner. */
 double iso_expression_variation(const iso_expression *e, const iso_expression_box *box, double least);
 
 /* Its degree as a polynomial in n, omega and e and in the functions that it calls. */
 int iso_expression_degree(const iso_expression *e);
 
 /* Whether its form shows a corner: a root of a square, as sqrt(n1^2) = |n1|, or of another even power. Then e->wrong
- * says so, and e->at where in the text. Other forms of |x|, as sqrt(1 - n2^2 - n3^2), are noticed by the error of a step
- * (method/taylor/inside_impl.h). */
+ * says so, and e->at where in the text. Other forms of |x|, as sqrt(1 - n2^2 - n3^2), are noticed by the error of a
+ * step (method/taylor/inside_impl.h). */
 bool iso_expression_has_corner(iso_expression *e, const iso_expression_state *s);
 
 /* How far it is from where it is not defined: the least of the numbers that it divides by, or takes the root, the power

@@ -1,10 +1,10 @@
 /* number_impl.h - the numbers that power series are made of.
  *
- * Included with NUMBER, a kind of number, its functions ROOT, POW, ... (double_impl.h has those of double), and LANES, how
- * many orbits are computed side by side. A `real` is one NUMBER of each orbit, a `mask` one decision for each, a
- * `vector` three reals. With PACKED (one orbit only) the three share a register of four. With APART, sums of products go
- * through one component after the other: the x87 has registers for the two sums of one component, not for six. No
- * operation mixes lanes: what an orbit gets does not depend on its neighbours.
+ * Included with NUMBER, a kind of number, its functions ROOT, POW, ... (double_impl.h has those of double), and
+ * LANES, how many orbits are computed side by side. A `real` is one NUMBER of each orbit, a `mask` one decision for
+ * each, a `vector` three reals. With PACKED (one orbit only) the three share a register of four. With APART, sums of
+ * products go through one component after the other: the x87 has registers for the two sums of one component, not for
+ * six. No operation mixes lanes: what an orbit gets does not depend on its neighbours.
  *
  * KEPT is the number of coefficients of a series. CHANNELS is 1 plus the number of deviations that are computed
  * beside each orbit (products_impl.h).

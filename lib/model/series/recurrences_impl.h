@@ -1,8 +1,8 @@
 /* recurrences_impl.h - the equations of motion of ball and point as recurrences for Taylor coefficients.
  *
  * All series and all Jacobians are made of this statement of the equations. A model calls some of the terms below, in
- * their order, and nothing else is computed. Effects come in as formulas (model/formula/formula.h), between the terms of the
- * ball. There are two uses:
+ * their order, and nothing else is computed. Effects come in as formulas (model/formula/formula.h), between the terms
+ * of the ball. There are two uses:
  *
  *     series      `expand` computes the coefficients of a solution, order by order
  *     Jacobians   slopes.c sets coefficients 1 of the states to a direction; coefficients 1 of the right-hand side

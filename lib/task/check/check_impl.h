@@ -47,13 +47,13 @@ void iso_checking_pass(iso_checking *checking);
 /* After the last row. Errors: ISO_BAD_INPUT, if there was none. */
 iso_status iso_checking_end(iso_checking *checking, iso_residuals *residuals);
 
-/* What the check does not look at: columns that nothing was compared with, and lines that are neither compared with rows
- * nor part of the equations that were followed. Calls `note` for each: "mu", "# tolerance"; and "the flow from row to
- * row" where no orbit has two rows, or no clock. Call it after iso_checking_end. */
+/* What the check does not look at: columns that nothing was compared with, and lines that are neither compared with
+ * rows nor part of the equations that were followed. Calls `note` for each: "mu", "# tolerance"; and "the flow from
+ * row to row" where no orbit has two rows, or no clock. Call it after iso_checking_end. */
 void iso_checking_unseen(iso_checking *checking, void (*note)(void *data, const char *name), void *data);
 
-/* The drifts of the integrals that hold, row by row, as a new record; of the model whose states the record must have, or
- * (-1) of the ball if it has both. The first column is the model's first clock, or
+/* The drifts of the integrals that hold, row by row, as a new record; of the model whose states the record must have,
+ * or (-1) of the ball if it has both. The first column is the model's first clock, or
  * "row", the row's number. The others ("h", "F_shell", ...) are |I(row) - I(first row)| / size; for a constraint its
  * exact value stands in the place of I(first row). Of those that are no constraints, lines say what they are: h.doc,
  * h.model, h.dimension (exponents a, b, c of the unit (mass length^2)^(a + b/(2k)) / time^c), h.start and h.worst.

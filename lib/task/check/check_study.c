@@ -79,7 +79,7 @@ static iso_status end_check(iso_context *ctx, iso_checking *checking, const char
     return k.lost ? iso_context_no_memory(ctx, "the names of what is not looked at") : ISO_OK;
 }
 
-/* The rows one after the other. A mistake in the first one is told before what the header lacks. */
+/* The rows one after the other. A mistake in the first one is reported before what the header lacks. */
 static iso_status check_rows(iso_context *ctx, const iso_study_subject *subject, const iso_check_request *r,
                              const iso_row_source *from, iso_check_found *f)
 {

@@ -56,9 +56,9 @@ typedef struct iso_conversion_summary {
     iso_stated stated[3];
 } iso_conversion_summary;
 
-/* Converts `in` to the model `to`. *out has the clock, then the six columns, and one row for each row of `in`; a row that
- * is not on the orbit of the row before, or before it in time, as it stands. It is the study `convert`, which also counts
- * such rows. Errors; messages give the number of the row, from 1:
+/* Converts `in` to the model `to`. *out has the clock, then the six columns, and one row for each row of `in`; a row
+ * that is not on the orbit of the row before, or before it in time, as it stands. It is the study `convert`, which
+ * also counts such rows. Errors; messages give the number of the row, from 1:
  * - those of iso_record_params;
  * - ISO_BAD_INPUT: a row is no state;
  * - ISO_NOT_MAPPED: a row is at rest; the M of a point does not fit eps or h of the record and the energy of the

@@ -1,5 +1,5 @@
-/* convert_clock.c - from one row of a conversion to the next: the gain of the other clock, and whether the orbit through
- * the row before misses the row. */
+/* convert_clock.c - from one row of a conversion to the next: the gain of the other clock, and whether the orbit
+ * through the row before misses the row. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>

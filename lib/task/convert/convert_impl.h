@@ -145,9 +145,9 @@ iso_status iso_conversion_follow(iso_conversion *c, const double row[], conversi
 void iso_conversion_settle(iso_conversion *c);
 
 /* header: columns, lines and row tolerance of what is converted. It, params, how and name must outlive the conversion;
- * lines may be added to it meanwhile. name: of the file, in the names of rows; NULL: these are a record's, of which a bad
- * one ends the work, and missed ones are only counted. sink: its row can be NULL, a mark in the place of a bad row, also before the header. The
- * header must have the six columns of one model. The clock of the result is
+ * lines may be added to it meanwhile. name: of the file, in the names of rows; NULL: these are a record's, of which a
+ * bad one ends the work, and missed ones are only counted. sink: its row can be NULL, a mark in the place of a bad
+ * row, also before the header. The header must have the six columns of one model. The clock of the result is
  * - the column of the header, if it has the other model's clock;
  * - else computed, from the line `t0` or `s0` of an earlier conversion on, or from 0;
  * - none, if the header has no clock.
@@ -160,10 +160,11 @@ void iso_conversion_free(iso_conversion *conversion);
 
 /* The next row. The first good row is compared with the lines: where h, eps or c of a level differs by more than
  * rounding, the result has the row's number, and the summary says so. The wrong one of the three is the one
- * that the other two and the row contradict. A point off the level H = 0 becomes a ball in the potential of the effect `level`,
- * which the lines of the result then name. A bad row is no state, it is at rest, its energy is not that of the rows
- * before, or the orbit of the row before does not reach it. A row that this orbit misses, or whose time turns back, is
- * converted as it stands. Both are named. Errors: the status of the sink; ISO_NO_MEMORY, ISO_STOPPED. */
+ * that the other two and the row contradict. A point off the level H = 0 becomes a ball in the potential of the
+ * effect `level`, which the lines of the result then name. A bad row is no state, it is at rest, its energy is not
+ * that of the rows before, or the orbit of the row before does not reach it. A row that this orbit misses, or whose
+ * time turns back, is converted as it stands. Both are named. Errors: the status of the sink; ISO_NO_MEMORY,
+ * ISO_STOPPED. */
 iso_status iso_conversion_put(iso_conversion *conversion, const double row[], size_t line);
 
 /* Call this in the place of a row that could not even be read. */
@@ -181,7 +182,7 @@ bool iso_conversion_verdict(const iso_conversion_summary *summary, char text[ISO
 bool iso_conversion_clock_lines(const iso_conversion_summary *summary, char key[2][ISO_NAME_SIZE],
                                 char value[2][160]);
 
-/* What is to be told of the line summary->stated[i]; false: there is none. */
+/* The text about the line summary->stated[i]; false: there is none. */
 enum { ISO_STATED_SIZE = 240 };
 bool iso_conversion_stated_text(const iso_conversion_summary *summary, int i, char text[ISO_STATED_SIZE]);
 

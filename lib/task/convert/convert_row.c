@@ -1,5 +1,6 @@
 /* convert_row.c - one row of the file: whether it is a state of the model and has the energy of the others, and its
- * state in the other model. The first good row also gives the units and the level. And marks in the place of bad rows. */
+ * state in the other model. The first good row also gives the units and the level. And marks in the place of bad
+ * rows. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>

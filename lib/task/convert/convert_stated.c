@@ -2,7 +2,7 @@
  * header of the result.
  *
  * With a level's c (0 without one) a row has one energy h, and eps = h det J/k^2. So of h, eps and c one that is off
- * is known by the other two. What the row does not confirm is told, and the row's own number takes its place. */
+ * is known by the other two. What the row does not confirm is printed, and the row's own number takes its place. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -103,7 +103,7 @@ static void note(iso_conversion *c, const char *key, double stated, double own, 
 }
 
 /* One of h and eps, `number` in the caller's units for each unit of energy, against the energy that is taken: it is
- * replaced if they differ, and told if the steps to the row do not explain it. */
+ * replaced if they differ, and printed if the steps to the row do not explain it. */
 static void compare_stated(iso_conversion *c, const account *a, const char *key, double number, double stated,
                            double taken)
 {

@@ -33,7 +33,8 @@ rival_solve rival_odeint_fehlberg, rival_odeint_stoer; /* Boost, where it was fo
 
 enum { RIVAL_STEPS = 10000 }; /* in a time of 1: who needs more gives up */
 
-/* --- many points in lanes: the yardstick of batches ----------------------------------------------------------------- */
+/* --- many points in lanes: the yardstick of batches
+ * ----------------------------------------------------------------- */
 
 /* Follows y[i] = (M, g), i < count, by series of one order to the time `end` of the ball. */
 typedef void yardstick_solve(const rival_problem *p, double tolerance, int order, double end, int count,

@@ -1,8 +1,9 @@
 /* yardstick_lanes.c - the yardstick of batches (rivals.h): free points side by side, one in each lane of a vector, by
  * Taylor series for these two equations and nothing else. Compiled once for each kind of vectors.
  *
- * Nothing here is clever. The order is a constant of the compilation, all loops are written out by the compiler, squares
- * are computed by halves, and constraints are restored to first order. A lane whose orbit ends takes the next one.
+ * Nothing here is clever. The order is a constant of the compilation, all loops are written out by the compiler,
+ * squares are computed by halves, and constraints are restored to first order. A lane whose orbit ends takes the next
+ * one.
  *
  *     k = -1, in s:   g'' = a (2 q - J) g,  a = -2 eps,  q = (g, J g);  |g'|^2 = 2 eps q;  t' = (det J/k^2) q^(-1/2)
  *     other k, in t:  g'' = (1 + 1/(2k)) r g' + b ((1-k) q^2 - q J) g,  r = q'/q;  |g'|^2 = b k q^2
