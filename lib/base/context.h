@@ -27,7 +27,7 @@ ISO_API iso_context *iso_context_create(void);
 ISO_API void iso_context_free(iso_context *ctx);
 
 /* Long work asks `go_on` now and then, at each step of an integrator at least, and ends with ISO_STOPPED when it
- * answers false: for Ctrl-C, a time limit, or to show progress. NULL, as at the beginning: nobody is asked. */
+ * answers false: for Ctrl-C, a time limit, or to show progress. NULL, as at the beginning: no calls. */
 ISO_API void iso_context_set_monitor(iso_context *ctx, bool (*go_on)(void *data), void *data);
 
 /* What went wrong last, one line without a newline; "" when nothing did. Valid until the next failing call. */

@@ -58,6 +58,10 @@ find lib -name '*.c' -exec grep -H '^#include "' {} + | awk -F '[:"]' '
     sort -u | tsort 2>&1 >/dev/null | complain "rooms in a circle"
 find apps examples -name '*.[ch]' -exec grep -HnE 'include <isoroll/.*_impl\.h>' {} + | complain "floors"
 
+# Plain words: forms that lib/README.md puts out.
+grep -rnE --include='*.[ch]' 'can be told[.,:]|is told the|whom it tells|nobody (is|has to)|so-and-so|[Gg]ives (how many|whether|their number|the status)' \
+    lib apps | complain "plain words (lib/README.md)"
+
 # Public headers need the C library alone, so a user needs nothing else to compile.
 # shellcheck disable=SC2086 # $public is a list
 grep -nE '^[ \t]*#[ \t]*include[ \t]*<' $public lib/isoroll.h |
