@@ -22,7 +22,7 @@ static iso_status check_certified(iso_context *ctx, const options *o)
     const iso_convert_request *r = &o->study;
     const iso_file_parameters *added = &r->added;
     const given_option others[] = {{o->digits != ALL_DIGITS, "digits"},
-                                   {r->tolerance != ISO_CONVERT_TOLERANCE, "tol"},
+                                   {!isnan(r->tolerance), "tol"},
                                    {!isnan(added->k), "k"},
                                    {!isnan(added->J[0]), "J"},
                                    {!isnan(added->eps), "eps"},

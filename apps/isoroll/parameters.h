@@ -3,7 +3,7 @@
 #define ISOROLL_PARAMETERS_H
 
 #include "command.h"
-#include "study/added_impl.h"
+#include "study/file_parameters_impl.h"
 
 typedef struct file_options {
     const char *file;
@@ -13,7 +13,7 @@ typedef struct file_options {
 
 #define FILE_OPTIONS_UNSET                                                                                           \
     {                                                                                                                \
-        .file = "-", .added = ISO_ADDED_UNSET                                                                        \
+        .file = "-", .added = ISO_FILE_PARAMETERS_UNSET                                                              \
     }
 
 /* Their rows; `from` is the place of a file_options in the struct `type`. */
@@ -24,8 +24,8 @@ typedef struct file_options {
     ROW("columns", "NAMES", "names with commas between", "the file's columns from left to right; - for others",      \
         iso_set_text, type, field)
 #define ROWS_OF_FILE(type, from)                                                                                     \
-    ISO_OPTIONS_ADDED(type, from.added), ROW_OF_ITS_SCENE(type, from.scene), ROW_COLUMNS(type, from.columns),        \
-        ISO_OPTION_ROW_TOLERANCE(type, from.added)
+    ISO_OPTIONS_FILE_PARAMETERS(type, from.added), ROW_OF_ITS_SCENE(type, from.scene),                               \
+        ROW_COLUMNS(type, from.columns), ISO_OPTION_ROW_TOLERANCE(type, from.added)
 
 /* Puts what the options say into the record of the file (its lines, its row tolerance), and reads the parameters from
  * the lines. */

@@ -207,7 +207,7 @@ static void state_at(const revolution *r, real along, double point[ISO_STATE])
     put(r, &at, point);
     if (!r->even) return;
     point[r->across] = r->spin;
-    iso_point_t_to_point(&r->params, point, point);
+    iso_point_in_t_to_point(&r->params, point, point);
 }
 
 /* --- from a state ----------------------------------------------------------------------------------------------- */

@@ -123,25 +123,52 @@ iso_status iso_table_next(iso_context *ctx, iso_table_reader *r, double row[], b
     return ISO_OK;
 }
 
+/* The rows of several orbits, with the number of their orbit in front. */
+static iso_status put_orbits(iso_context *ctx, const iso_record *rows, const double orbit[], iso_record **record)
+{
+    const char *names[1 + ISO_TRAJECTORY_COLUMNS] = {ISO_ORBIT_COLUMN};
+    const size_t columns = iso_record_columns(rows);
+    double *to;
+    for (size_t i = 0; i < columns; i++) names[1 + i] = iso_record_name(rows, i);
+    iso_status status = iso_record_create_like(ctx, rows, 1 + columns, names, record);
+    for (size_t i = 0; i < iso_record_rows(rows) && status == ISO_OK; i++) {
+        status = iso_record_append(ctx, *record, &to);
+        if (status != ISO_OK) break;
+        *to = orbit[i];
+        memcpy(to + 1, iso_record_const_row(rows, i), columns * sizeof *to);
+    }
+    if (status != ISO_OK) iso_record_free(*record), *record = NULL;
+    return status;
+}
+
 iso_status iso_table_read_all(iso_context *ctx, iso_table_reader *r, iso_record **record)
 {
     const size_t columns = iso_record_columns(r->header);
     const double numbers = (double)r->rows * (double)columns;
+    const bool orbits = r->trajectory && r->at.orbits;
     *record = NULL;
     if (numbers > MOST_NUMBERS && numbers * sizeof(double) > r->stored)
         return ISO_FAIL_INPUT(ctx, "", "%s: %zu rows of %zu columns are more than %g numbers", r->name, r->rows,
                               columns, MOST_NUMBERS);
-    double *row = malloc((columns + 1) * sizeof *row), *to;
+    double *row = malloc((columns + 1) * sizeof *row), *orbit = NULL, *to;
+    size_t count = 0, room = 0;
     bool more = true;
-    if (!row) return iso_text_no_memory(ctx, "read", r->name);
-    iso_status status;
-    while ((status = iso_table_next(ctx, r, row, &more)) == ISO_OK && more) {
-        status = iso_record_append(ctx, r->header, &to);
+    iso_status status = row ? ISO_OK : iso_text_no_memory(ctx, "read", r->name);
+    while (status == ISO_OK && (status = iso_table_next(ctx, r, row, &more)) == ISO_OK && more) {
+        if (orbits && count == room) {
+            double *wider = realloc(orbit, (room = 2 * room + 64) * sizeof *orbit);
+            if (!wider) status = iso_text_no_memory(ctx, "read", r->name);
+            if (wider) orbit = wider;
+        }
+        if (status == ISO_OK) status = iso_record_append(ctx, r->header, &to);
         if (status != ISO_OK) break;
+        if (orbits) orbit[count++] = r->at.orbit;
         memcpy(to, row, columns * sizeof *to);
     }
+    if (status == ISO_OK && orbits) status = put_orbits(ctx, r->header, orbit, record);
+    if (status == ISO_OK && !orbits) *record = r->header, r->header = NULL;
+    free(orbit);
     free(row);
-    if (status == ISO_OK) *record = r->header, r->header = NULL;
     return status;
 }
 

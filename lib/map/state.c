@@ -4,7 +4,7 @@
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
 
-void iso_ball_to_point_t(const iso_params *p, const double ball[ISO_STATE], double y[ISO_STATE])
+void iso_ball_to_point_in_t(const iso_params *p, const double ball[ISO_STATE], double y[ISO_STATE])
 {
     for (int i = 0; i < 3; i++) {
         y[i] = p->root_J[i] * ball[i];
@@ -15,14 +15,14 @@ void iso_ball_to_point_t(const iso_params *p, const double ball[ISO_STATE], doub
 
 void iso_ball_to_point(const iso_params *p, const double ball[ISO_STATE], double point[ISO_STATE])
 {
-    iso_ball_to_point_t(p, ball, point);
-    iso_point_t_to_point(p, point, point);
+    iso_ball_to_point_in_t(p, ball, point);
+    iso_point_in_t_to_point(p, point, point);
 }
 
 void iso_point_to_ball(const iso_params *p, const double point[ISO_STATE], double ball[ISO_STATE])
 {
-    iso_point_to_point_t(p, point, ball);
-    iso_point_t_to_ball(p, ball, ball);
+    iso_point_to_point_in_t(p, point, ball);
+    iso_point_in_t_to_ball(p, ball, ball);
 }
 
 double iso_ball_energy(const iso_params *p, const double ball[ISO_STATE])

@@ -16,7 +16,7 @@ void iso_ball_to_point(const iso_params *p, const double ball[ISO_STATE], double
 void iso_point_to_ball(const iso_params *p, const double point[ISO_STATE], double ball[ISO_STATE]);
 
 /* To the states of iso_system_point_in_t, (p, gamma) with p = M/NN = J^(1/2) w. The way back: model/model_impl.h. */
-void iso_ball_to_point_t(const iso_params *p, const double ball[ISO_STATE], double y[ISO_STATE]);
+void iso_ball_to_point_in_t(const iso_params *p, const double ball[ISO_STATE], double y[ISO_STATE]);
 
 /* The ball's energy h = (w,Jw)/2. */
 double iso_ball_energy(const iso_params *p, const double ball[ISO_STATE]);

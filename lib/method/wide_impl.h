@@ -36,7 +36,7 @@ typedef long double iso_wide;
 #endif
 
 /* The return map in numbers of 64 bits; `fine`: of 128 bits, NULL where the compiler has none. */
-static inline const iso_return_build *iso_return_code_of(bool fine)
+static inline const iso_return_build *iso_return_build_of(bool fine)
 {
     return fine ? WIDE_RETURN : &iso_return_extended;
 }

@@ -50,8 +50,8 @@ static inline double unit_length(const iso_problem *f, const double y[], double 
     static double name##_of_point(const iso_problem *f, const double y[], double *size)                              \
     {                                                                                                                \
         double ball[ISO_STATE];                                                                                      \
-        iso_point_to_point_t(&f->p, y, ball);                                                                        \
-        iso_point_t_to_ball(&f->p, ball, ball);                                                                      \
+        iso_point_to_point_in_t(&f->p, y, ball);                                                                     \
+        iso_point_in_t_to_ball(&f->p, ball, ball);                                                                   \
         return call;                                                                                                 \
     }
 

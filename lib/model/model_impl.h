@@ -31,15 +31,15 @@ iso_dimension iso_clock_dimension(iso_clock clock);
 double iso_clock_rate(const iso_params *p, iso_clock clock, double q, double *exponent);
 
 /* The point on H = 0 again, y = (J^(1/2) omega, gamma) in the ball's time, free of powers of q: for extreme k
- * (point_t.c). Not in the registry. */
+ * (point_in_t.c). Not in the registry. */
 extern const iso_system iso_system_point_in_t;
 
 /* Its states and those of the point, (M, gamma) with M = NN p (18). The two may be one array. */
-void iso_point_to_point_t(const iso_params *p, const double point[ISO_STATE], double y[ISO_STATE]);
-void iso_point_t_to_point(const iso_params *p, const double y[ISO_STATE], double point[ISO_STATE]);
+void iso_point_to_point_in_t(const iso_params *p, const double point[ISO_STATE], double y[ISO_STATE]);
+void iso_point_in_t_to_point(const iso_params *p, const double y[ISO_STATE], double point[ISO_STATE]);
 
 /* Its ball (18): integrals of a point may be those of its ball. The two may be one array. */
-void iso_point_t_to_ball(const iso_params *p, const double y[ISO_STATE], double ball[ISO_STATE]);
+void iso_point_in_t_to_ball(const iso_params *p, const double y[ISO_STATE], double ball[ISO_STATE]);
 
 /* Whether powers q^(1/k) may range over more than ten decades along an orbit: series of (24) then overflow, and its
  * steps shrink. */

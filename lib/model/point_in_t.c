@@ -1,4 +1,4 @@
-/* point_t.c - the point of (24) on the level H = 0, in the ball's time t, where no power of q is left.
+/* point_in_t.c - the point of (24) on the level H = 0, in the ball's time t, where no power of q is left.
  *
  * On this level |M| = sqrt(2 eps) q^(-1/(2k)) is known, but spans hundreds of decades for small |k|. The state here
  * is
@@ -24,7 +24,7 @@ static double momentum_factor(const iso_params *p, const double gamma[3])
     return sqrt(p->det_J) / p->k * pow(q, -1 / (2 * p->k));
 }
 
-void iso_point_to_point_t(const iso_params *p, const double point[ISO_STATE], double y[ISO_STATE])
+void iso_point_to_point_in_t(const iso_params *p, const double point[ISO_STATE], double y[ISO_STATE])
 {
     const double NN = momentum_factor(p, point + 3);
     for (int i = 0; i < 3; i++) {
@@ -33,7 +33,7 @@ void iso_point_to_point_t(const iso_params *p, const double point[ISO_STATE], do
     }
 }
 
-void iso_point_t_to_point(const iso_params *p, const double y[ISO_STATE], double point[ISO_STATE])
+void iso_point_in_t_to_point(const iso_params *p, const double y[ISO_STATE], double point[ISO_STATE])
 {
     const double NN = momentum_factor(p, y + 3);
     for (int i = 0; i < 3; i++) {
@@ -42,7 +42,7 @@ void iso_point_t_to_point(const iso_params *p, const double y[ISO_STATE], double
     }
 }
 
-void iso_point_t_to_ball(const iso_params *p, const double y[ISO_STATE], double ball[ISO_STATE])
+void iso_point_in_t_to_ball(const iso_params *p, const double y[ISO_STATE], double ball[ISO_STATE])
 {
     for (int i = 0; i < 3; i++) {
         ball[i] = y[i] / p->root_J[i];

@@ -49,7 +49,7 @@ _Static_assert((int)ISO_MAX_STATE <= (int)ISO_TRAJECTORY_COLUMNS, "a sample has 
 
 const char *iso_batch_vectors(int i, int *lanes)
 {
-    for (const iso_lane_build *const *code = iso_lane_codes; *code; code++) {
+    for (const iso_lane_build *const *code = iso_lane_builds; *code; code++) {
         if (!(*code)->runs_here() || i-- > 0) continue;
         if (lanes) *lanes = (*code)->lanes;
         return (*code)->name;
@@ -234,7 +234,7 @@ static void leave(const batch *b, size_t i, iso_status answer)
 static iso_status run(iso_context *ctx, batch *b, const iso_batch_options *options, iso_status status[])
 {
     b->options = options ? *options : iso_batch_defaults();
-    b->code = iso_lane_code_find(b->options.vectors, false);
+    b->code = iso_lane_build_find(b->options.vectors, false);
     iso_status answer = check(ctx, &b->options, b->code, b->times, b->rows);
     if (answer != ISO_OK) return answer;
     const size_t fits = ROOM / ((b->rows + 1) * sizeof(iso_sample));

@@ -44,7 +44,7 @@ iso_status iso_crossings_check(iso_context *ctx, const iso_crossings_options *o)
         return ISO_FAIL_ARGUMENT(ctx, "backend",
                                  "crossings are found by backend ball or point, and shown as ball, point or both");
     ISO_TRY(iso_tolerance_check(ctx, o->tolerance));
-    ISO_TRY(iso_lanes_check(ctx, o->threads, o->vectors, iso_lane_code_find(o->vectors, o->deviations) != NULL));
+    ISO_TRY(iso_lanes_check(ctx, o->threads, o->vectors, iso_lane_build_find(o->vectors, o->deviations) != NULL));
     return check_section(ctx, o);
 }
 

@@ -83,7 +83,7 @@ static bool starts_on_section(const iso_orbit *orbit, const double y[], int axis
     double point[ISO_STATE];
     if (orbit->system != &iso_system_point_in_t)
         return iso_crossings_on_section(own, iso_crossings_model(orbit), y, axis, upwards);
-    iso_point_t_to_point(own, y, point); /* for k < 0 the signs of M and y differ */
+    iso_point_in_t_to_point(own, y, point); /* for k < 0 the signs of M and y differ */
     return iso_crossings_on_section(own, ISO_POINT, point, axis, upwards);
 }
 
@@ -122,7 +122,7 @@ static void to_point(const iso_orbit *orbit, const double y[], const double d[],
     const bool ball = orbit->system == &iso_system_ball;
     double factor = 1, slope = 0;
     if (ball) iso_ball_to_point(p, y, point);
-    if (orbit->system == &iso_system_point_in_t) iso_point_t_to_point(p, y, point);
+    if (orbit->system == &iso_system_point_in_t) iso_point_in_t_to_point(p, y, point);
     if (orbit->system == &iso_system_point) copy(y, point, ISO_STATE);
     const double *gamma = point + 3, q = dot_diag(gamma, p->J, gamma);
     const double NN = sqrt(p->det_J) / p->k * pow(q, -1 / (2 * p->k));
@@ -221,7 +221,7 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
     iso_crossing_blank(to);
     for (iso_clock k = 0; k < ISO_CLOCKS; k++) to->clock[k] = clock_of(orbit, k, y, time) * orbit->unit_clock[k];
     if (o->axis >= 0) {
-        orbit->system == &iso_system_point_in_t ? iso_point_t_to_point(own, y, point)
+        orbit->system == &iso_system_point_in_t ? iso_point_in_t_to_point(own, y, point)
                                                 : iso_crossings_point(own, iso_crossings_model(orbit), y, point);
         iso_section_chart(o->axis, point, &to->l, &to->x);
     }
@@ -353,7 +353,7 @@ static bool solve_chunk(iso_pool_worker *w, void *data, size_t first, size_t cou
 
 iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *task, bool taken[])
 {
-    follower f = {c, task, iso_lane_code_find(c->options.vectors, c->options.deviations), taken};
+    follower f = {c, task, iso_lane_build_find(c->options.vectors, c->options.deviations), taken};
     const size_t threads = iso_pool_threads(c->options.threads, c->count, f.code->lanes);
     iso_pool pool = {.what = "orbit", .count = c->count, .chunk = CHUNK, .solve = solve_chunk, .data = &f};
     if (task->each == 0 || c->options.kind == ISO_SECTION_COLUMN) return ISO_OK;

@@ -133,7 +133,7 @@ static void as_ball(const iso_orbit *o, const double y[], double ball[ISO_STATE]
     const iso_params *own = &o->units.own;
     if (o->system == &iso_system_ball) copy(y, ball, ISO_STATE);
     if (o->system == &iso_system_point) iso_point_to_ball(own, y, ball);
-    if (o->system == &iso_system_point_in_t) iso_point_t_to_ball(own, y, ball);
+    if (o->system == &iso_system_point_in_t) iso_point_in_t_to_ball(own, y, ball);
 }
 
 static void as_point(const iso_orbit *o, const double y[], double point[ISO_STATE])
@@ -141,7 +141,7 @@ static void as_point(const iso_orbit *o, const double y[], double point[ISO_STAT
     const iso_params *own = &o->units.own;
     if (o->system == &iso_system_ball) iso_ball_to_point(own, y, point);
     if (o->system == &iso_system_point) copy(y, point, ISO_STATE);
-    if (o->system == &iso_system_point_in_t) iso_point_t_to_point(own, y, point);
+    if (o->system == &iso_system_point_in_t) iso_point_in_t_to_point(own, y, point);
 }
 
 /* Where powers q^(1/(2k)) are steep, they may leave the range of doubles even in own units. Elsewhere a clock is

@@ -257,7 +257,7 @@ static void to_system(const iso_orbit *o, iso_model_kind model, double y[ISO_STA
     const bool ball = model == ISO_BALL;
     if (o->system == &iso_system_ball && !ball) iso_point_to_ball(own, y, y);
     if (o->system == &iso_system_point && ball) iso_ball_to_point(own, y, y);
-    if (o->system == &iso_system_point_in_t) (ball ? iso_ball_to_point_t : iso_point_to_point_t)(own, y, y);
+    if (o->system == &iso_system_point_in_t) (ball ? iso_ball_to_point_in_t : iso_point_to_point_in_t)(own, y, y);
 }
 
 /* Whether c of a level is a double in the caller's units. */

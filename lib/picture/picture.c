@@ -131,14 +131,15 @@ iso_status iso_picture_add(iso_context *ctx, iso_picture *picture, const char *n
     bool words[NAMES];
     size_t count = 0;
     if (!text) return iso_context_no_memory(ctx, "a picture");
-    for (char *word = strtok_r(text, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+    for (char *word = strtok_r(text, " ", &rest); word && count < NAMES; word = strtok_r(NULL, " ", &rest)) {
         const size_t length = strcspn(word, "'");
         words[count] = word[length] != '\0';
         word[length] = '\0';
         names[count++] = word;
     }
     int i = 0;
-    while (picture->table[i]) i++;
+    while (i < ISO_PICTURE_TABLES && picture->table[i]) i++;
+    if (i == ISO_PICTURE_TABLES) return free(text), ISO_FAIL_INPUT(ctx, "", "a picture has too many tables");
     const iso_status status = iso_record_create(ctx, count, names, &picture->table[i]);
     free(text);
     ISO_TRY(status);
@@ -151,7 +152,7 @@ iso_status iso_picture_add(iso_context *ctx, iso_picture *picture, const char *n
 iso_record **iso_picture_aside(iso_picture *picture)
 {
     int i = 0;
-    while (picture->aside[i]) i++;
+    while (i < ISO_PICTURE_ASIDE - 1 && picture->aside[i]) i++; /* makers use five */
     return &picture->aside[i];
 }
 

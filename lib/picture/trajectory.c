@@ -14,6 +14,7 @@
 
 #include "base/vec3_impl.h"
 #include "orbit/description.h"
+#include "io/table_impl.h"
 #include "orbit/orbit_impl.h"
 #include "picture/picture_impl.h"
 #include "study/energy.h"
@@ -45,7 +46,8 @@ static iso_status find_twin(iso_context *ctx, iso_picture *picture, parts *p)
     if (p->ball && p->point) return ISO_OK;
     const iso_status status = iso_convert(ctx, p->file, to, 1e-12, twin);
     if (status == ISO_OK) *(to == ISO_POINT ? &p->point : &p->ball) = *twin;
-    if (status != ISO_NOT_MAPPED) return status;
+    const bool orbits = iso_record_find(p->file, ISO_ORBIT_COLUMN) >= 0; /* of different energies */
+    if (status != ISO_NOT_MAPPED && !(orbits && status == ISO_BAD_INPUT)) return status;
     return iso_picture_say(ctx, picture, "note", "%s is drawn alone: %s", to == ISO_POINT ? "the ball" : "the point",
                            iso_context_message(ctx));
 }

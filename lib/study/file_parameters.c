@@ -1,5 +1,5 @@
-/* added.c - k, J and eps of a trajectory: from its own lines, from options, from a scene (see added_impl.h). */
-#include "study/added_impl.h"
+/* file_parameters.c - k, J and eps of a trajectory: from its own lines, from options, from a scene (see file_parameters_impl.h). */
+#include "study/file_parameters_impl.h"
 
 #include "orbit/description.h"
 #include "orbit/orbit_impl.h"

@@ -1,6 +1,6 @@
-/* added_impl.h - what options add to a trajectory that does not say it itself: k, J, eps or h. */
-#ifndef ISO_STUDY_ADDED_IMPL_H
-#define ISO_STUDY_ADDED_IMPL_H
+/* file_parameters_impl.h - what options add to a trajectory that does not say it itself: k, J, eps or h. */
+#ifndef ISO_STUDY_FILE_PARAMETERS_IMPL_H
+#define ISO_STUDY_FILE_PARAMETERS_IMPL_H
 
 #include <math.h>
 
@@ -11,13 +11,13 @@ typedef struct iso_file_parameters {
     double row_tolerance;   /* how far a row may be from a state */
 } iso_file_parameters;
 
-#define ISO_ADDED_UNSET                                                                                              \
+#define ISO_FILE_PARAMETERS_UNSET                                                                                    \
     {                                                                                                                \
         .k = NAN, .J = {NAN, NAN, NAN}, .eps = NAN, .h = NAN, .row_tolerance = ISO_ROW_TOLERANCE                     \
     }
 
 /* Their rows, the last one by itself; `from` is the place of an iso_file_parameters in the struct `type`. */
-#define ISO_OPTIONS_ADDED(type, from)                                                                                \
+#define ISO_OPTIONS_FILE_PARAMETERS(type, from)                                                                      \
     ISO_OPTION("k", "K", "a number", "geometry number k, if the file does not say it", iso_set_number, type,         \
                from.k),                                                                                              \
         ISO_OPTION("J", "J1,J2,J3", "three numbers J1,J2,J3",                                                        \

@@ -3,7 +3,7 @@
  *     iso_sweep_store *s;
  *     status = iso_sweep_store_open(ctx, "out.csv", head, whole, true, &s);      whole: (iso_sweep_shard){0, 1}
  *     for each chunk c of the shard from number s->done on:
- *         status = iso_sweep_store_add(ctx, s, c, &rows);
+ *         status = iso_sweep_store_add(ctx, s, &rows);
  *     status = iso_sweep_store_finish(ctx, s);                                 out.csv.part becomes out.csv
  *     iso_sweep_store_close(s);
  *

@@ -92,7 +92,7 @@ static laws_worst right, bits, broken;
 
 static void note_member(const member *m, int code, const iso_lane_job *job)
 {
-    const char *name = iso_lane_codes[code]->name;
+    const char *name = iso_lane_builds[code]->name;
     /* as for one orbit by itself; long bodies amplify rounding */
     const double allowed = 1e-13 * fmax(1, sqrt(laws_spread(&m->o.model.problem.p)) / 8);
     effects_note(&m->c, &bits, job->done == ROWS && !job->error ? 0 : 1, 0.5, "all rows reached");
@@ -104,7 +104,7 @@ static void note_member(const member *m, int code, const iso_lane_job *job)
  * then each by itself. */
 static void solve_group(member *group[], int size, int code)
 {
-    const iso_lane_build *lanes = iso_lane_codes[code];
+    const iso_lane_build *lanes = iso_lane_builds[code];
     static iso_lane_job full[MOST], last[MOST], none[MOST / 8];
     static double one[MOST][1][ISO_MAX_STATE], nowhere[MOST / 8][ROWS][ISO_MAX_STATE];
     iso_lane_job *list[3 * MOST];
@@ -146,8 +146,8 @@ static void solve_groups(void)
         for (int j = i; j < count && size < MOST; j++)
             if (!members[j]->taken && iso_lanes_alike(&members[i]->o.model, &members[j]->o.model))
                 members[j]->taken = true, group[size++] = members[j];
-        for (int code = 0; iso_lane_codes[code]; code++)
-            if (iso_lane_codes[code]->runs_here()) solve_group(group, size, code);
+        for (int code = 0; iso_lane_builds[code]; code++)
+            if (iso_lane_builds[code]->runs_here()) solve_group(group, size, code);
         groups++;
     }
     printf("%d orbits in %d groups\n", count, groups);
@@ -161,8 +161,8 @@ int main(void)
     ctx = iso_context_create();
     dice = iso_random_create(4);
     extended = iso_method_find("taylor_extended");
-    for (int code = 0; iso_lane_codes[code]; code++)
-        if (!iso_lane_codes[code]->runs_here()) printf("no %s here: not tested\n", iso_lane_codes[code]->name);
+    for (int code = 0; iso_lane_builds[code]; code++)
+        if (!iso_lane_builds[code]->runs_here()) printf("no %s here: not tested\n", iso_lane_builds[code]->name);
     collect_all();
     solve_groups();
     for (int i = 0; i < count; i++) free(members[i]);

@@ -77,7 +77,7 @@ static void check_neighbours(const effects_case *c, laws_worst *worst)
         return;
     if (pow(laws_spread(&c->model.problem.p), 1 / fabs(c->model.problem.p.k)) > 1e4 || number++ % each != 0) return;
     const orbit o = orbit_of(ctx, c, variant++);
-    flow f = {.o = &o, .time = 0.7 * orbit_stretch(c, &o), .code = iso_lane_code_find("quad", true)};
+    flow f = {.o = &o, .time = 0.7 * orbit_stretch(c, &o), .code = iso_lane_build_find("quad", true)};
     go(&f, o.y0);
     const double step = 2e-4; /* with a strong rotor 1e-3 is too large for the differences */
     double neighbour[ISO_LANE_DEVIATIONS][ISO_MAX_STATE];
@@ -85,7 +85,7 @@ static void check_neighbours(const effects_case *c, laws_worst *worst)
         laws_slope(state_after, &f, o.model.moving, o.model.moving, o.y0, f.first[d], step, neighbour[d]);
     for (int code = 0; code < CODES; code++) {
         flow own = f;
-        own.code = iso_lane_code_find(codes[code], true);
+        own.code = iso_lane_build_find(codes[code], true);
         if (!own.code) continue;
         go(&own, o.y0);
         for (int d = 0; d < ISO_LANE_DEVIATIONS; d++) {
@@ -99,7 +99,7 @@ static void check_neighbours(const effects_case *c, laws_worst *worst)
 
 int main(void)
 {
-    if (!iso_lane_code_find("quad", true)) {
+    if (!iso_lane_build_find("quad", true)) {
         printf("SKIP deviations against neighbours: this compiler has no numbers of 128 bits\n");
         return 0;
     }

@@ -77,7 +77,7 @@ static void check_mirror(const iso_scene *scene, const iso_periodic_orbit *o)
     iso_periodic_fine whole;
     iso_wide slope[2][2];
     iso_periodic_map_prepare(ctx, &scene->params, 0, 1, &map);
-    const iso_return_build *code = iso_return_code_of(false);
+    const iso_return_build *code = iso_return_build_of(false);
     gsl_test(!iso_periodic_shoot(&map, code, o->line, o->u, o->period, &shot), "the first half");
     gsl_test(!iso_periodic_far(&map, code, shot.z, 2 * o->period, NULL, &whole), "both halves");
     iso_wide_multiply((const iso_wide(*)[2])shot.back, (const iso_wide(*)[2])shot.half.slope, slope);

@@ -171,7 +171,7 @@ iso_status iso_continuation_events(const iso_continuation *f, iso_branch *b, con
         locate(f, a, to, test, ds, &at, &part);
         /* half way the coordinates of what stays on the line can themselves turn over: the trace shows it */
         const double trace = test > TEST_BREAKING ? -2 : 2;
-        if (iso_symmetry_line_is_half_way(f->line) && test != TEST_TURN && fabs(at.trace - trace) >= 0.01) continue;
+        if (iso_symmetry_line_is_half_way(f->line) && test != TEST_TURN && !(fabs(at.trace - trace) < 0.01)) continue;
         classify(f, a, to, test, ds, &at, &e);
         e.at = iso_continuation_read(&at, arc + part);
         if (!is_there(b, &e)) ISO_TRY(iso_continuation_add_event(f, b, &e));

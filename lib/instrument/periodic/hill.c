@@ -120,7 +120,7 @@ static bool ask_section(iso_periodic_work *w, iso_rotation *r, iso_wide *trace)
     const bool own = r->axis == map.axis;
     if (own) iso_periodic_map_turn((map.axis + 1) % 3, &map);
     const iso_wide z[2] = {r->axis == (map.axis + 1) % 3 ? WIDE_PI / 2 : 0, 0};
-    if (!iso_periodic_far(&map, iso_return_code_of(w->options.polish), z, 1, NULL, &found)) return false;
+    if (!iso_periodic_far(&map, iso_return_build_of(w->options.polish), z, 1, NULL, &found)) return false;
     *trace = -(found.slope[0][0] + found.slope[1][1]);
     for (int c = 0; c < ISO_CLOCKS; c++) r->clock[c] = 2 * (double)found.clock[c] * w->unit_clock[c];
     return true;

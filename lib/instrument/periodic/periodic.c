@@ -31,7 +31,7 @@ static iso_status check_scene(iso_periodic_work *w)
         return ISO_FAIL_ARGUMENT(w->ctx, "period", "a period of %d: give 1 to %d", o->period, ISO_PERIODIC_MOST);
     if (o->grid < 1 || o->grid > 10000000)
         return ISO_FAIL_ARGUMENT(w->ctx, "grid", "a grid of %ld points: give 1 to 1e7", o->grid);
-    if (!iso_return_code_of(o->polish))
+    if (!iso_return_build_of(o->polish))
         return ISO_FAIL_ARGUMENT(w->ctx, "polish", "this build has no numbers of 128 bits");
     ISO_TRY(iso_refuse_beyond_level(w->ctx, &effects, what));
     if (fabs(k) < ISO_LEAST_K)

@@ -170,7 +170,7 @@ static bool solve_some(iso_pool_worker *worker, void *data, size_t first, size_t
     iso_periodic_map map = a->w->map;
     map.ctx = worker->ctx;
     for (size_t i = first; i < first + count; i++)
-        a->of[i].answer = iso_periodic_solve(&map, iso_return_code_of(a->w->options.polish), a->candidate[i],
+        a->of[i].answer = iso_periodic_solve(&map, iso_return_build_of(a->w->options.polish), a->candidate[i],
                                              &a->of[i].orbit, a->of[i].path);
     return true;
 }

@@ -92,9 +92,9 @@ static iso_status find_finer(iso_manifold *m, iso_manifold_crossing *c, iso_sepa
     const bool unclear = !(fabs(s->m) >= 1000 * s->error);
     const iso_manifold kept = *m;
     const iso_manifold_crossing found = *c;
-    if (digits == ISO_SEPARATRIX_DOUBLE || (digits == ISO_SEPARATRIX_AUTO && !(unclear && iso_return_code_of(true))))
+    if (digits == ISO_SEPARATRIX_DOUBLE || (digits == ISO_SEPARATRIX_AUTO && !(unclear && iso_return_build_of(true))))
         return ISO_OK;
-    iso_status status = iso_manifold_use(m, iso_return_code_of(true));
+    iso_status status = iso_manifold_use(m, iso_return_build_of(true));
     m->terms = with_106_bits.terms;
     if (status == ISO_OK) status = iso_manifold_solve(m);
     if (status == ISO_OK) status = compute(m, &with_106_bits, c, s);
@@ -110,7 +110,7 @@ static iso_status find(iso_context *ctx, const double J[3], iso_separatrix_digit
 {
     iso_manifold m;
     iso_manifold_crossing c, n;
-    if (digits == ISO_SEPARATRIX_QUAD && !iso_return_code_of(true))
+    if (digits == ISO_SEPARATRIX_QUAD && !iso_return_build_of(true))
         return ISO_FAIL_ARGUMENT(ctx, "digits", "splitting: this build has no numbers of 128 bits");
     ISO_TRY(iso_manifold_find(ctx, s->k, J, s->level, &m));
     s->section = m.axis;

@@ -250,6 +250,7 @@ static iso_status read_header_of_table(iso_csv *c)
     const char *names[ISO_MOST_COLUMNS];
     bool more;
     size_t count = 0;
+    c->separators = ",";
     ISO_TRY(next_data(c, &more));
     if (!more || c->number == 1)
         return more ? read_kind(c) : iso_csv_fail(c, NULL, "expected a line of column names");

@@ -174,10 +174,6 @@ static iso_status name_columns(finding *c, size_t count)
     return s->block ? ISO_OK : iso_text_no_memory(c->ctx, "read", r->name);
 }
 
-/* The columns that only sections have. */
-static const char *const section[] = {ISO_ORBIT_COLUMN, "crossing", "l", "x"};
-enum { SECTION = sizeof section / sizeof *section };
-
 /* The numbers of the states, and behind them the number of the orbit. Other columns of a section and of periodic orbits
  * are passed over. */
 static iso_status find_trajectory(finding *c)

@@ -99,7 +99,7 @@ static void restore_deviation(const form *T, const state *s, state *d)
     add_times(d->n, -inner3(s->n, d->n), s->n);
     keep_units(T, s, d);
     const real spin = inner3(d->w, s->n) + inner3(s->w, d->n);
-    if (T->is_point || T->is_point_t) {
+    if (T->is_point || T->is_point_in_t) {
         add_times(d->w, -spin, s->n);
         if (T->is_point)
             keep_level_of_point(T, s, d);

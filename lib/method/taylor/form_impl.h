@@ -23,7 +23,7 @@ typedef struct form {
     bool idle[LANES];              /* nobody asks for the lane's orbit              */
     iso_formula motion;            /* the equations of the ball's effects           */
     iso_clock own;
-    bool is_point, is_point_t, in_t, in_field, is_neumann, twists, has_derived, unprojected;
+    bool is_point, is_point_in_t, in_t, in_field, is_neumann, twists, has_derived, unprojected;
     bool loaded;                                              /* a ball with torques, or free to twist         */
     enum second_integral_of { NONE, SHELL, PLANE } second_of; /* the second integral that steps keep */
     double tolerance;                /* of the last terms, in units of the state                             */
@@ -97,16 +97,16 @@ static void set_shape(form *T, const iso_model *m, iso_inside *inside, double to
     T->inside = inside;
     T->flat = inside && iso_inside_flat(inside, &m->problem);
     T->tolerance = tolerance * FINER;
-    T->is_point_t = m->system == &iso_system_point_in_t;
+    T->is_point_in_t = m->system == &iso_system_point_in_t;
     T->at_poles = pow(T->tolerance, 0.75);
     T->is_point = m->system == &iso_system_point;
     T->in_field = T->is_point && m->problem.energy_formula.lines > 0;
-    T->twists = !T->is_point && !T->is_point_t && iso_effects_twist(&m->problem.effects);
-    T->loaded = !T->is_point && !T->is_point_t && (m->problem.motion.torques || T->twists);
-    if (T->is_point ? !T->in_field : !T->is_point_t && !T->loaded)
+    T->twists = !T->is_point && !T->is_point_in_t && iso_effects_twist(&m->problem.effects);
+    T->loaded = !T->is_point && !T->is_point_in_t && (m->problem.motion.torques || T->twists);
+    if (T->is_point ? !T->in_field : !T->is_point_in_t && !T->loaded)
         T->second_of = m->problem.p.k == -1 ? SHELL : m->problem.p.k == 1 ? PLANE : NONE;
     set_counts(S);
-    if (T->is_point_t)
+    if (T->is_point_in_t)
         set_recurrences(S, 1, (recurrences){{point_p}});
     else
         T->is_point ? expand_as_point(T) : expand_as_ball(T);
@@ -127,7 +127,7 @@ static void set_clock(form *T, int lane, const iso_params *p, iso_clock clock, N
     iso_clock_rate(p, clock, 1, &e);
     iso_clock_rate(p, T->own, 1, &e_own);
     LANE(T->rate[clock], lane) = (clock == ISO_CLOCK_S ? 1 / factor : 1) * (T->own == ISO_CLOCK_S ? factor : 1);
-    LANE(T->power[clock], lane) = T->is_point || T->is_point_t ? e - e_own : e_own - e;
+    LANE(T->power[clock], lane) = T->is_point || T->is_point_in_t ? e - e_own : e_own - e;
 }
 
 static void set_numbers(form *T, int lane, const iso_model *m)
@@ -149,7 +149,7 @@ static void set_numbers(form *T, int lane, const iso_model *m)
     /* in t, with eps = h det J/k^2: B = 2 h k/det J */
     LANE(S->alpha, lane) = T->in_t ? 1 + 1 / (2 * k) : -1 - 1 / k;
     LANE(S->coupling, lane) = T->in_t ? 2 * eps / (k * factor * factor) : 2 * eps / k;
-    if (T->is_point_t)
+    if (T->is_point_in_t)
         LANE(S->alpha, lane) = 1 / ROOT(J[0] * J[1] * J[2]), LANE(S->coupling, lane) = 2 * eps / factor;
     for (int i = 0; i < 3; i++)
         if (T->is_neumann) LANE(AT(S->neumann_c, i), lane) = 2 * eps / k * J[i] + 2 * f->energy;

@@ -9,7 +9,7 @@
 #include "model/formula/formula_lines_impl.h"
 #include "model/model_impl.h"
 
-const iso_lane_build *const iso_lane_codes[] = {
+const iso_lane_build *const iso_lane_builds[] = {
 #ifdef ISO_TAYLOR_X86
     &iso_lanes_avx512, &iso_lanes_avx2,
 #endif
@@ -27,14 +27,14 @@ static const iso_lane_build *const tangent_codes[] = {
 #endif
     NULL};
 
-const iso_lane_build *iso_lane_code_find(const char *name, bool deviations)
+const iso_lane_build *iso_lane_build_find(const char *name, bool deviations)
 {
-    for (const iso_lane_build *const *code = deviations ? tangent_codes : iso_lane_codes; *code; code++)
+    for (const iso_lane_build *const *code = deviations ? tangent_codes : iso_lane_builds; *code; code++)
         if ((!name || strcmp(name, (*code)->name) == 0) && (*code)->runs_here()) return *code;
     return NULL;
 }
 
-const iso_rest_build *iso_tail_code_find(void)
+const iso_tail_build *iso_tail_build_find(void)
 {
 #ifdef ISO_TAYLOR_X86
     if (iso_tail_avx2.runs_here()) return &iso_tail_avx2;

@@ -72,11 +72,11 @@ typedef struct iso_lane_build {
 } iso_lane_build;
 
 /* The codes of this build without deviations, widest first, ended by NULL; the last runs everywhere. */
-extern const iso_lane_build *const iso_lane_codes[];
+extern const iso_lane_build *const iso_lane_builds[];
 
 /* The one called `name`, or for NULL the widest, that this processor can run; NULL: none. With deviations there are
  * also "extended" and "quad", one orbit in numbers of more digits. */
-const iso_lane_build *iso_lane_code_find(const char *name, bool deviations);
+const iso_lane_build *iso_lane_build_find(const char *name, bool deviations);
 
 /* The clock that is the variable of a model's series. */
 iso_clock iso_lane_clock(const iso_model *model);

@@ -287,7 +287,7 @@ static real restore(const form *T, state *s)
     if (T->unprojected && !T->is_point) return zero; /* off them a point's equations are unstable */
     real worst = zero;
     if (T->motion.states > 0) worst += restore_unit_states(T, s);
-    if (T->is_point_t) return worst + restore_point_t(T, s);
+    if (T->is_point_in_t) return worst + restore_point_t(T, s);
     return worst + (T->is_point ? restore_point(T, s) : restore_ball(T, s));
 }
 

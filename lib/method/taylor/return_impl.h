@@ -132,7 +132,7 @@ static bool cross_step(const form *T, int axis, NUMBER length, NUMBER zeros, NUM
 
 /* The higher coefficients of a series, in doubles. */
 typedef struct tail {
-    const iso_rest_build *code;
+    const iso_tail_build *code;
     void *data;
     int from; /* even: the first coefficient of q that they give */
     iso_tail_rows rows;
@@ -234,7 +234,7 @@ static bool go(const iso_model *model, int axis, double zeros, double tolerance,
     T->scale[1] = T->scale[2] = 0;
     T->second_of = NONE; /* the start is exact: nothing to restore it to */
     t->from = tail_from(T);
-    t->code = iso_tail_code_find();
+    t->code = iso_tail_build_find();
     t->data = t->code->create(model, T->S.order);
     const bool there = t->data && go_round(T, t, axis, zeros, on_section, r);
     free(t->data);

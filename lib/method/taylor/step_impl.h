@@ -203,7 +203,7 @@ static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
     for (int n = T->S.order - 2; n <= T->S.order; n++) {
         const real longest = rough_root(T->tolerance / larger(coefficient(T, n), least), n);
         h = choose(longest < h, longest, h);
-        if (T->is_point || T->is_point_t) continue;
+        if (T->is_point || T->is_point_in_t) continue;
         const real near = for_poles(T, n - 1);
         h = choose(near < h, near, h);
     }

@@ -27,17 +27,17 @@ typedef struct iso_tail_rows {
     double vector[3][3][ISO_TAIL_ORDER + 3][3], number[5][3][ISO_TAIL_ORDER + 3];
 } iso_tail_rows;
 
-typedef struct iso_rest_build {
+typedef struct iso_tail_build {
     bool (*runs_here)(void);
     void *(*create)(const iso_model *model, int order); /* for free(); NULL: no memory. A free point is wanted */
     /* Rows hold gamma up to coefficient from + 1, the others up to from - 1; here gamma gets all up to order + 1, and
      * q up to order. */
     void (*expand)(void *tail, int from, iso_tail_rows *rows);
-} iso_rest_build;
+} iso_tail_build;
 
-extern const iso_rest_build iso_tail_plain, iso_tail_avx2;
+extern const iso_tail_build iso_tail_plain, iso_tail_avx2;
 
 /* The best that this processor can run. */
-const iso_rest_build *iso_tail_code_find(void);
+const iso_tail_build *iso_tail_build_find(void);
 
 #endif

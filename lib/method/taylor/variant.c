@@ -187,9 +187,9 @@ static bool runs_everywhere(void)
     return true;
 }
 
-const iso_rest_build iso_tail_plain = {runs_everywhere, create_tail, expand_tail};
+const iso_tail_build iso_tail_plain = {runs_everywhere, create_tail, expand_tail};
 #elif IS(TAIL_AVX2)
-const iso_rest_build iso_tail_avx2 = {iso_taylor_has_avx2, create_tail, expand_tail};
+const iso_tail_build iso_tail_avx2 = {iso_taylor_has_avx2, create_tail, expand_tail};
 #else
 const iso_return_build iso_return_quad = {"quad", 0x1p-106, go};
 const iso_lane_build iso_tangent_quad = LANE_CODE("quad");

@@ -58,7 +58,8 @@ void iso_model_blame(const iso_model *m, const double y[], char text[ISO_BLAME_S
     const iso_problem *f = &m->problem;
     double ball[ISO_MAX_STATE];
     copy(y, ball, m->dim);
-    if (m->system == &iso_system_point) iso_point_to_point_t(&f->p, y, ball), iso_point_t_to_ball(&f->p, ball, ball);
+    if (m->system == &iso_system_point)
+        iso_point_to_point_in_t(&f->p, y, ball), iso_point_in_t_to_ball(&f->p, ball, ball);
     text[0] = '\0';
     if (iso_model_false_claim(m, y, text)) return;
     for (iso_effect_id e = 0; e < ISO_EFFECTS && !text[0]; e++)

@@ -81,7 +81,7 @@ double iso_inside_variation(iso_inside *inside, const iso_model *m, const iso_st
     double ball[ISO_MAX_STATE], most = 0;
     read_texts(inside, &f->effects);
     copy(stretch->y, ball, m->moving);
-    if (point) iso_point_to_point_t(&f->p, stretch->y, ball), iso_point_t_to_ball(&f->p, ball, ball);
+    if (point) iso_point_to_point_in_t(&f->p, stretch->y, ball), iso_point_in_t_to_ball(&f->p, ball, ball);
     const double speed = norm(ball) * (1 + stretch->omega / (norm(stretch->y) + DBL_MIN));
     for (int i = 0; i < inside->parts; i++) {
         const drive *p = &inside->part[i];

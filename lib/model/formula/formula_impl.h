@@ -165,7 +165,7 @@ static inline iso_vector scale_c(iso_formula *F, iso_scalar s, iso_constant c)
 
 /* --- results ---------------------------------------------------------------------------------------------------- */
 
-/* What the call adds c a to. */
+/* The call `name`: adds c a to what stands beside it. */
 #define ISO_RESULT(name, operation, A)                                                                               \
     static inline void name(iso_formula *F, iso_constant c, iso_##A a)                                               \
     {                                                                                                                \

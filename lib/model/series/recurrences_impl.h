@@ -300,7 +300,7 @@ static inline void point_t(series *S, int c, int n)
     accelerate(S, c, n + 1, plus(push.next, times(S->alpha, plus(drag.next, rest))));
 }
 
-/* in t, on H = 0, w = p (point_t.c): p' = r (p^2 c - (c,p) p),  gamma' = k r q gamma x p,  c = gamma x J gamma; r =
+/* in t, on H = 0, w = p (point_in_t.c): p' = r (p^2 c - (c,p) p),  gamma' = k r q gamma x p,  c = gamma x J gamma; r =
  * alpha, a = c. Nothing is divided by k; with 2h in the place of p^2 an error of |p| would grow as fast as the ball
  * turns. */
 static inline void point_p(series *S, int c, int n)

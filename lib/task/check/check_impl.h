@@ -14,7 +14,7 @@
 #include "orbit/description.h"
 #include "orbit/rows_impl.h"
 #include "orbit/watch_impl.h"
-#include "study/added_impl.h"
+#include "study/file_parameters_impl.h"
 #include "task/check/check.h"
 
 /* --- row by row ---------------------------------------------------------------------------------------------------
@@ -180,7 +180,7 @@ typedef struct iso_check_request {
 
 #define ISO_CHECK_UNSET                                                                                              \
     {                                                                                                                \
-        .added = ISO_ADDED_UNSET, .tolerance = 1e-13, .bound = NAN                                                   \
+        .added = ISO_FILE_PARAMETERS_UNSET, .tolerance = 1e-13, .bound = NAN                                         \
     }
 
 /* A residual, and the bound that it is held to. */

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "orbit/description.h"
-#include "study/added_impl.h"
 #include "study/fields_impl.h"
+#include "study/file_parameters_impl.h"
 #include "task/check/check_impl.h"
 
 /* --- what is found ---------------------------------------------------------------------------------------------- */
@@ -152,7 +152,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
 
 const iso_option iso_check_option[] = {
     ISO_OPTION_TOLERANCE("tolerance of the flow from row to row (default 1e-13)", iso_check_request, tolerance),
-    ISO_OPTIONS_ADDED(iso_check_request, added),
+    ISO_OPTIONS_FILE_PARAMETERS(iso_check_request, added),
     ISO_OPTION_ROW_TOLERANCE(iso_check_request, added),
     ISO_OPTION("max", "X", "a number from 0 on", "exit with status 1 if a residual is larger than X", iso_set_bound,
                iso_check_request, bound),

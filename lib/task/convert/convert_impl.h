@@ -5,12 +5,12 @@
 
 #include "base/sink.h"
 #include "orbit/rows_impl.h"
-#include "study/added_impl.h"
+#include "study/file_parameters_impl.h"
 #include "task/convert/convert.h"
 
 typedef struct iso_convert_request {
     iso_model_kind to; /* -1: not given */
-    double tolerance;  /* of the other clock's gain from row to row, relative */
+    double tolerance;  /* of the other clock's gain from row to row, relative; NAN: ISO_CONVERT_TOLERANCE */
     iso_file_parameters added;
     double max_defect; /* NAN: by the tolerances and digits of the rows, 1e-5 or more */
     /* For points with k = -1 off the level H = 0. true: the point becomes the free ball with the moments J + E/eps,
@@ -23,7 +23,7 @@ typedef struct iso_convert_request {
 #define ISO_CONVERT_TOLERANCE 1e-14
 #define ISO_CONVERT_UNSET                                                                                            \
     {                                                                                                                \
-        .to = (iso_model_kind)-1, .tolerance = ISO_CONVERT_TOLERANCE, .added = ISO_ADDED_UNSET, .max_defect = NAN    \
+        .to = (iso_model_kind)-1, .tolerance = NAN, .added = ISO_FILE_PARAMETERS_UNSET, .max_defect = NAN            \
     }
 
 /* What the study finds. */
@@ -96,7 +96,7 @@ struct iso_conversion {
 
 /* --- convert_row.c: what leaves --- */
 
-/* Gives away a row; NULL: a mark in the place of a bad one. */
+/* Sends a row to the sink; NULL: a mark in the place of a bad one. */
 iso_status iso_conversion_write(const iso_conversion *c, const double row[]);
 
 /* Marks the place of a bad row; if too many are bad before the first good one, this fails. */

@@ -122,7 +122,7 @@ static iso_status end_orbit(work *w)
 static iso_status convert_row(work *w, const iso_row_source *from)
 {
     const iso_status status = from->next(w->ctx, from->data, &w->row);
-    if (!w->began && w->row.ignored && !w->how->quiet)
+    if (!w->began && w->row.ignored && w->found->name && !w->how->quiet)
         iso_study_note(w->result, "%s: passed over: %s", w->found->name, w->row.ignored);
     w->began = true;
     if (status == ISO_BAD_INPUT && w->found->name && !w->how->strict) {
@@ -179,7 +179,9 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     iso_kept_rows kept = {.record = subject->record, .sink = &result->sink};
     const iso_row_source own = {iso_kept_rows_next, &kept}, *from = subject->rows ? subject->rows : &own;
     iso_convert_found *found = iso_study_keep(result, calloc(1, sizeof *found), NULL, free);
-    work w = {.ctx = ctx, .subject = subject, .how = options, .result = result, .to = &result->sink, .found = found};
+    iso_convert_request how = *(const iso_convert_request *)options;
+    work w = {.ctx = ctx, .subject = subject, .how = &how, .result = result, .to = &result->sink, .found = found};
+    if (isnan(how.tolerance)) how.tolerance = ISO_CONVERT_TOLERANCE;
     if (!found) return iso_context_no_memory(ctx, "a conversion");
     found->name = subject->rows && w.to->row ? subject->name : NULL;
     w.row.more = true;
@@ -188,7 +190,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     if (status == ISO_OK) status = convert_rows(&w, from);
     if (status == ISO_OK) status = end_rows(&w);
     if (w.named > NAMED) iso_study_note(result, "%s: %zu more rows are not named", found->name, w.named - NAMED);
-    if (w.to->row)
+    if (w.to->row || (status != ISO_OK && status != ISO_STOPPED))
         iso_record_free(w.out);
     else
         result->table[0] = w.out;
@@ -239,7 +241,7 @@ const iso_option iso_convert_option[] = {
     ISO_OPTION_WORDS("to", "MODEL", "ball or point", "the model to convert to: ball, point", iso_set_model,
                      iso_convert_request, to, iso_model_kind_name),
     ISO_OPTION_TOLERANCE("relative error of the other model's clock (default 1e-14)", iso_convert_request, tolerance),
-    ISO_OPTIONS_ADDED(iso_convert_request, added),
+    ISO_OPTIONS_FILE_PARAMETERS(iso_convert_request, added),
     ISO_OPTION_ROW_TOLERANCE(iso_convert_request, added),
     ISO_OPTION("max-defect", "X", "a number from 0 on",
                "name rows farther than X from the orbit of the row before; status 1", iso_set_bound,
