@@ -113,6 +113,8 @@ draw bare.csv --columns t,-,n3 # by their places, in a file without names
 columns_of bowl.csv t n3 | tr ' ' ',' >bare.csv
 cp script kept
 draw - --columns t,n3 <bowl.csv
+run 0 section "$source/examples/16_sections/scene.yaml" --crossings 20 -o crossings.csv
+draw crossings.csv --columns l,x # a table that is no trajectory
 tells_not "standard input" stdin
 
 # --- what is refused, and leaves the picture that was there

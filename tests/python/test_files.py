@@ -32,6 +32,15 @@ class Files(Case):
         isoroll.write(table, self.path("d.csv"), digits=3)
         self.near(isoroll.read(self.path("d.csv")).n, table.n, 0.5e-3)
 
+    def test_several_orbits(self):
+        section = isoroll.section(BALL, starts=2, crossings=5, as_="ball")
+        table = isoroll.convert(section, "point")
+        isoroll.write(table, self.path("orbits.csv"))
+        again = isoroll.read(self.path("orbits.csv"))
+        self.assertEqual(again.columns, table.columns)
+        self.same(again.array, table.array)
+        self.assertLess(np.max(isoroll.check(again).worst), 1e-9)
+
     def test_what_is_changed_is_written(self):
         table = isoroll.run(BALL)
         table.n[3, 1] = 0.125

@@ -45,6 +45,12 @@ static iso_status check_energy(const work *w, const iso_record *header)
         if (status == ISO_OK) iso_record_get_numbers(w->ctx, header, keys[i], 1, &now, &status);
         ISO_TRY(status);
         if ((isnan(first) && isnan(now)) || fabs(now - first) <= digits * fabs(first)) continue;
+        if (isnan(first) || isnan(now))
+            return ISO_FAIL_INPUT(
+                w->ctx, "",
+                "orbit %s has %s %s, unlike the first one: convert orbits of different energies one "
+                "by one",
+                ISO_SHORT(w->row.orbit), isnan(now) ? "no" : "a", keys[i]);
         return ISO_FAIL_INPUT(w->ctx, "",
                               "orbit %s has %s = %.6g, the first one %.6g: convert orbits of different energies "
                               "one by one",
