@@ -75,13 +75,13 @@ refuses 2 "this is no task of an array" sweep grid.yaml -o new.csv --shard slurm
 # task 3 alone, submitted again; then tasks 2 and 4
 SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=1 SLURM_ARRAY_TASK_MIN=3 SLURM_ARRAY_TASK_MAX=3
 export SLURM_ARRAY_TASK_ID SLURM_ARRAY_TASK_COUNT SLURM_ARRAY_TASK_MIN SLURM_ARRAY_TASK_MAX
-refuses 2 "one task or gaps, so it does not tell N: give --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
+refuses 2 "one task or gaps, so N is not known: give --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
 run 0 sweep grid.yaml -o task3.csv --shard slurm/5
 check "task 3, submitted again" cmp task3.csv part.3.csv
 refuses 2 "a number from 1 to 2" sweep grid.yaml -o new.csv --shard slurm/2
 refuses 2 "a number from 1 to x" sweep grid.yaml -o new.csv --shard slurm/x
 SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_MIN=2 SLURM_ARRAY_TASK_MAX=4
-refuses 2 "one task or gaps, so it does not tell N: give --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
+refuses 2 "one task or gaps, so N is not known: give --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
 unset SLURM_ARRAY_TASK_ID SLURM_ARRAY_TASK_COUNT SLURM_ARRAY_TASK_MIN SLURM_ARRAY_TASK_MAX
 refuses 2 "expected i/n" sweep grid.yaml -o new.csv --shard 6/5
 for option in "-o new.csv" --resume "--shard 1/2"; do
