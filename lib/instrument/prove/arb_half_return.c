@@ -30,7 +30,7 @@ static void angle_init(const prove_flow *f, int number, int parts, angle *a)
     fmpq_t turn;
     fmpq_init(turn);
     fmpq_set_si(turn, number, (ulong)parts);
-    iso_balls_init(a, sizeof *a);
+    arb_init(a->c), arb_init(a->s);
     arb_sin_cos_pi_fmpq(a->s, a->c, turn, f->bits);
     fmpq_clear(turn);
 }

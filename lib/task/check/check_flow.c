@@ -39,12 +39,14 @@ iso_status iso_checker_open(const checker *c, const checked_model *m, const doub
     return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
 }
 
-/* Names the row whose numbers are refused. */
-static iso_status name_row(const checker *c, iso_status status, size_t number)
+/* Names the row whose numbers are refused; from: the row before it, if the motion between them is, else 0. */
+static iso_status name_row(const checker *c, iso_status status, size_t from)
 {
     if (status == ISO_OK) return ISO_OK;
     if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT; /* the number that is refused stands in the file */
-    return iso_context_fail(c->ctx, status, "", "row %zu: %s", number, iso_context_message(c->ctx));
+    if (from == 0) return iso_context_fail(c->ctx, status, "", "row %zu: %s", c->number, iso_context_message(c->ctx));
+    return iso_context_fail(c->ctx, status, "", "from row %zu to row %zu: %s", from, c->number,
+                            iso_context_message(c->ctx));
 }
 
 /* The columns of effects in a row to which nothing is integrated: they belong to its state. */
@@ -56,7 +58,7 @@ static iso_status check_alone(checker *c, checked_model *m, const double row[])
     iso_status status = iso_checker_open(c, m, row, &orbit);
     if (status == ISO_OK) status = iso_orbit_at(orbit, 0, &sample);
     iso_orbit_free(orbit);
-    ISO_TRY(name_row(c, status, c->number));
+    ISO_TRY(name_row(c, status, 0));
     iso_checker_go_on(c, row, &sample);
     iso_checker_effects_flow(c, &m->found, &sample, row);
     return ISO_OK;

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/context_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "model/model_impl.h"
@@ -208,7 +209,8 @@ iso_status iso_conversion_name(const iso_conversion *c, size_t line, iso_status 
 {
     char named[1536];
     if (!c->name) return iso_context_fail(c->ctx, why, "", "row %zu: %s", line, text);
-    if (c->how->strict) return iso_context_fail(c->ctx, why, "", "%s:%zu: %s", c->name, line, text);
+    if (c->how->strict)
+        return iso_context_placed(c->ctx, iso_context_fail(c->ctx, why, "", "%s:%zu: %s", c->name, line, text));
     snprintf(named, sizeof named, "%s:%zu: %s", c->name, line, text);
     if (c->sink.note) c->sink.note(c->sink.data, named);
     return ISO_OK;
