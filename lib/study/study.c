@@ -90,7 +90,7 @@ static char *command_of(const iso_study *study, const char *name, const char *op
     for (const char *o = options; *o; o += *o == '\n') {
         const size_t length_of_name = strcspn(o, "=\n"), line = strcspn(o, "\n");
         const iso_option *row = iso_study_option_find(study, o, length_of_name);
-        if (row && !row->aside) {
+        if (row && !row->aside && o[length_of_name] == '=') { /* without "=" it will be refused */
             const char *value = o + length_of_name + 1;
             const int rest = (int)(line - length_of_name - 1);
             const bool quoted = strcspn(value, " ;*?&|<>()$'\"\n") < (size_t)rest;

@@ -115,7 +115,8 @@ typedef struct iso_study {
     iso_status (*run)(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result);
     unsigned of; /* ISO_STUDY_OF_SCENE, ... */
-    /* Of what it finds in one scene. Its numbers are columns of sweeps; NULL: it has none that another run repeats. */
+    /* Of what it finds in one scene. Its numbers are columns of sweeps; NULL: it is no quantity of a sweep, as its
+     * numbers differ from run to run. */
     const iso_field *fields;
     /* Prints what was found, for people; NULL: nothing. */
     void (*print)(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
