@@ -148,7 +148,7 @@ ISO_API iso_status iso_batch(iso_context *ctx, const iso_scene *const scene[], s
  * options: lines NAME=VALUE with a newline between, or NULL. Names and values are those of the command, such as
  *   "starts=12\nat=0.5,0.2;1,-0.3\nmodel=both"; a flag is "NAME=true".
  * sink: takes notes and progress, and of run, section and convert the rows as they are found, if its `row` is not
- *   NULL: they are then in no table. NULL: nobody does.
+ *   NULL: they are then in no table. NULL: no calls.
  * table[]: those not made are NULL. The lines of table[0] are the scene's, the command line that makes it again, and
  *   the result by the names of the command's --json, but what the rows have. The caller frees each (iso_record_free).
  *   run: the trajectory; with verbose=true its lines errors.ball, .point, .t, .tau, .s are the largest errors.

@@ -133,8 +133,9 @@ iso_status iso_solution_at(iso_solution *o, const double times[], size_t count, 
             return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "times", "time %zu must be finite, not %s", i,
                                     ISO_SHORT(times[i]));
     if (count > 0 && iso_effects_watch_contact(&o->scene.effects)) return fill_watched(o, times, count, table, &n);
-    iso_asked_time *order = iso_times_in_order(times, count) ? NULL : iso_times_sorted(times, count);
-    if (!order && !iso_times_in_order(times, count)) return no_orbit(o->ctx);
+    const bool in_order = iso_times_in_order(times, count);
+    iso_asked_time *order = in_order ? NULL : iso_times_sorted(times, count);
+    if (!order && !in_order) return no_orbit(o->ctx);
     for (size_t i = 0; status == ISO_OK && i < count; i++) {
         const size_t row = order ? order[i].row : i;
         status = fill_row(o, times[row], table + row * (size_t)o->count);

@@ -4,6 +4,7 @@
 
 #include "base/record_impl.h"
 #include "io/table.h"
+#include "orbit/description.h"
 
 enum { ISO_MOST_COLUMNS = 5000 }; /* of a table; a sweep has 1000 or so */
 
@@ -48,9 +49,6 @@ struct iso_table_reader {
     bool any;          /* a row was read */
     void *data;
 };
-
-/* The column of a file of several orbits that numbers them. It is no column of a trajectory. */
-#define ISO_ORBIT_COLUMN "orbit"
 
 /* The reader's header gets columns, and keeps its lines. */
 iso_status iso_table_name_columns(iso_context *ctx, iso_table_reader *r, size_t count, const char *const names[]);

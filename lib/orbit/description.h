@@ -11,6 +11,9 @@
 #include "base/record.h"
 #include "orbit/orbit.h"
 
+/* The column of a file of several orbits that numbers them. It is no column of a trajectory. */
+#define ISO_ORBIT_COLUMN "orbit"
+
 /* Reads the parameters from the lines `k`, `J` and `D`. Errors: ISO_BAD_INPUT about "k", "J" or "D" (absent,
  * wrong). */
 iso_status iso_record_params(iso_context *ctx, const iso_record *record, iso_params *params);

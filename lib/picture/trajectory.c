@@ -14,7 +14,6 @@
 
 #include "base/vec3_impl.h"
 #include "orbit/description.h"
-#include "io/table_impl.h"
 #include "orbit/orbit_impl.h"
 #include "picture/picture_impl.h"
 #include "study/energy.h"

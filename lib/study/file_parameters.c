@@ -1,10 +1,11 @@
-/* file_parameters.c - k, J and eps of a trajectory: from its own lines, from options, from a scene (see file_parameters_impl.h). */
+/* file_parameters.c - k, J and eps of a trajectory: from its own lines, from options, from a scene (see
+ * file_parameters_impl.h). */
 #include "study/file_parameters_impl.h"
+
+#include <string.h>
 
 #include "orbit/description.h"
 #include "orbit/orbit_impl.h"
-
-#include <string.h>
 
 /* Makes what an option says a line of the record. If the file has that line already, it must say the same. */
 static iso_status set_line(iso_context *ctx, iso_record *record, const char *key, size_t count, const double values[])

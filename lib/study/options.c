@@ -84,18 +84,24 @@ const char *iso_backend_word(int i)
     return words[i];
 }
 
+/* Whether the text is a word of a list; *i: its place there. */
+static bool find_word(const char *text, const char *(*word)(int), int *i)
+{
+    for (*i = 0; word(*i); ++*i)
+        if (strcmp(text, word(*i)) == 0) return true;
+    return false;
+}
+
 bool iso_set_backend(void *at, const char *text)
 {
-    for (int i = 0; iso_backend_name(i); i++)
-        if (strcmp(text, iso_backend_name(i)) == 0) return *(iso_backend *)at = (iso_backend)i, true;
-    return false;
+    int i;
+    return find_word(text, iso_backend_name, &i) && (*(iso_backend *)at = (iso_backend)i, true);
 }
 
 bool iso_set_model(void *at, const char *text)
 {
-    for (int i = 0; iso_model_kind_name(i); i++)
-        if (strcmp(text, iso_model_kind_name(i)) == 0) return *(iso_model_kind *)at = (iso_model_kind)i, true;
-    return false;
+    int i;
+    return find_word(text, iso_model_kind_name, &i) && (*(iso_model_kind *)at = (iso_model_kind)i, true);
 }
 
 bool iso_set_method(void *at, const char *text)
@@ -110,9 +116,8 @@ const char *iso_models_word(int i)
 
 bool iso_set_models(void *at, const char *text)
 {
-    for (int i = 0; iso_models_word(i); i++)
-        if (strcmp(text, iso_models_word(i)) == 0) return *(iso_models *)at = (iso_models)i, true;
-    return false;
+    int i;
+    return find_word(text, iso_models_word, &i) && (*(iso_models *)at = (iso_models)i, true);
 }
 
 const char *iso_option_gone(const char *command, const char *name)

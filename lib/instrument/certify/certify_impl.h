@@ -30,7 +30,7 @@ typedef struct iso_certify_options {
 /* Who takes the lines of the file, each with its newline. Another answer than ISO_OK ends the work. */
 typedef struct iso_certify_sink {
     iso_status (*line)(void *data, const char *text);
-    void (*progress)(void *data, double part); /* NULL: nobody */
+    void (*progress)(void *data, double part); /* NULL: no calls */
     void *data;
 } iso_certify_sink;
 

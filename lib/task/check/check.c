@@ -205,7 +205,7 @@ iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_recor
     *residuals = (iso_residuals){.rows = 0};
     iso_status status = iso_checking_create(ctx, params, record, tolerance, &c);
     if (status != ISO_OK) return status;
-    const int orbit = iso_record_find(record, "orbit");
+    const int orbit = iso_record_find(record, ISO_ORBIT_COLUMN);
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(record); row++) {
         const double *x = iso_record_const_row(record, row);
         if (orbit >= 0 && row > 0 && x[orbit] != iso_record_const_row(record, row - 1)[orbit])

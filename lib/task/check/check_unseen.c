@@ -47,7 +47,7 @@ void iso_checking_unseen(iso_checking *c, void (*note)(void *data, const char *n
     if (!is_followed(c)) note(data, "the flow from row to row");
     for (size_t i = 0; i < c->width; i++) {
         const int column = iso_column_find(iso_record_name(c->record, i));
-        const bool orbit = strcmp(iso_record_name(c->record, i), "orbit") == 0; /* it tells orbits apart */
+        const bool orbit = strcmp(iso_record_name(c->record, i), ISO_ORBIT_COLUMN) == 0;
         if (!orbit && (column < 0 || !c->looked[column])) note(data, iso_record_name(c->record, i));
     }
     for (size_t i = 0; iso_record_line(c->record, i, &key, &value); i++) {

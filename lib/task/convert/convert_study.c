@@ -70,7 +70,7 @@ static iso_status write_row(const work *w, const double row[])
 static iso_status put_header(void *data, int table, const iso_record *header)
 {
     work *w = data;
-    const char *names[1 + ISO_TRAJECTORY_COLUMNS] = {"orbit"};
+    const char *names[1 + ISO_TRAJECTORY_COLUMNS] = {ISO_ORBIT_COLUMN};
     const size_t own = w->row.orbits, columns = iso_record_columns(header);
     if (w->out) return check_energy(w, header);
     for (size_t i = 0; i < columns; i++) names[own + i] = iso_record_name(header, i);
