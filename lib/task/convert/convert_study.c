@@ -274,6 +274,7 @@ iso_status iso_convert(iso_context *ctx, const iso_record *in, iso_model_kind to
 {
     iso_convert_request how = ISO_CONVERT_UNSET;
     iso_study_result r = {.text = NULL};
+    if (isnan(tolerance)) return ISO_FAIL_ARGUMENT(ctx, "tolerance", "the tolerance is nan");
     how.to = to;
     how.tolerance = tolerance;
     how.added.row_tolerance = iso_record_row_tolerance(in);
