@@ -22,22 +22,33 @@ static iso_status set_line(iso_context *ctx, iso_record *record, const char *key
     return iso_record_set_numbers(ctx, record, key, count, values);
 }
 
+/* A line of the record from a scene. If the file has that line already, it must say the same, to the digits of its
+ * rows. */
+static iso_status set_from_scene(iso_context *ctx, iso_record *record, const char *key, size_t count,
+                                 const double values[])
+{
+    double said[3];
+    iso_status status;
+    if (!iso_record_get_numbers(ctx, record, key, count, said, &status))
+        return status == ISO_OK ? iso_record_set_numbers(ctx, record, key, count, values) : status;
+    for (size_t i = 0; i < count; i++)
+        if (!(fabs(said[i] - values[i]) <= iso_record_row_tolerance(record) * fabs(values[i])))
+            return ISO_FAIL_INPUT(ctx, "scene",
+                                  "--scene contradicts the file, which says '# %s: %s': the scene has %.10g", key,
+                                  iso_record_get(record, key), values[i]);
+    return ISO_OK;
+}
+
 /* Takes from a scene what the record does not say. */
 static iso_status set_scene(iso_context *ctx, const iso_scene *scene, iso_record *record)
 {
-    iso_status status = ISO_OK;
     const iso_effects effects = iso_scene_acting(scene);
-    const double eps = scene->start.model == ISO_POINT ? scene->start.eps : NAN;
-    if (!iso_record_get(record, "k")) status = iso_record_set_numbers(ctx, record, "k", 1, &scene->params.k);
-    if (status == ISO_OK && !iso_record_get(record, "J"))
-        status = iso_record_set_numbers(ctx, record, "J", 3, scene->params.J);
-    if (status == ISO_OK && scene->params.D > 0 && !iso_record_get(record, "D"))
-        status = iso_record_set_numbers(ctx, record, "D", 1, &scene->params.D);
-    if (status == ISO_OK && !isnan(eps) && !iso_record_get(record, "eps") && !iso_record_get(record, "h"))
-        status = iso_record_set_numbers(ctx, record, "eps", 1, &eps);
-    if (status == ISO_OK && !iso_record_get(record, "effects"))
-        status = iso_record_describe_effects(ctx, record, &effects);
-    return status;
+    const bool point = scene->start.model == ISO_POINT && !isnan(scene->start.eps);
+    ISO_TRY(set_from_scene(ctx, record, "k", 1, &scene->params.k));
+    ISO_TRY(set_from_scene(ctx, record, "J", 3, scene->params.J));
+    if (scene->params.D > 0) ISO_TRY(set_from_scene(ctx, record, "D", 1, &scene->params.D));
+    if (point && !iso_record_get(record, "h")) ISO_TRY(set_from_scene(ctx, record, "eps", 1, &scene->start.eps));
+    return iso_record_get(record, "effects") ? ISO_OK : iso_record_describe_effects(ctx, record, &effects);
 }
 
 iso_status iso_file_parameters_apply(iso_context *ctx, const iso_file_parameters *o, const iso_scene *scene,

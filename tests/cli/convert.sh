@@ -79,6 +79,13 @@ refuses 2 "expected three numbers" convert --to point --J 1,2 ball.csv
 refuses 2 "[1e-15, 0.1]" convert --to point --tol 1 ball.csv
 refuses 3 "--k contradicts the file, which says '# k: -1'" convert --to point --k 1 ball.csv
 refuses 3 "--J contradicts" convert --to point --J 1,2,3 ball.csv
+sed 's/k: -1/k: 0.5/' scene.yaml >other.yaml
+refuses 3 "--scene contradicts the file, which says '# k: -1'" convert --to point --scene other.yaml ball.csv
+refuses 3 "--scene contradicts the file" check --scene other.yaml ball.csv
+for line in h eps tolerance t0; do
+    { echo "# $line: abc"; grep -v "^# $line:" ball.csv; } >wrong.csv
+    refuses 3 "'$line: abc' should be 1 finite number" convert --to point wrong.csv -o none.csv
+done
 refuses 3 "k" convert --to point bare.csv
 refuses 3 "--J" convert --to point bare.csv --k 1
 refuses 3 "k = 0" convert --to point bare.csv --k 0 --J 1,2,3
@@ -141,6 +148,10 @@ check "the energy of a later row" test "$(grep '^# h' turned.csv)" != "$(grep '^
 refuses 3 "bare_point.csv:3: the energy of this point is not that of the rows before" convert --strict --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3 -o none.csv
 run 3 convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3 -o none.csv
 check_not "an eps of another orbit leaves no file" test -e none.csv
+# the first row of a point has 1.5 times its M: the rows behind it have the energy of the lines
+awk -F, -v OFS=, -v CONVFMT=%.17g '/^[0-9]/ && !row++ { $2 *= 1.5; $3 *= 1.5; $4 *= 1.5 } { print }' point.csv >first.csv
+refuses 3 "line $(grep -n '^[0-9]' first.csv | head -1 | cut -d: -f1) has another one: leave out that row" \
+    convert --strict --to ball first.csv -o none.csv
 refuses 5 "cannot open" convert --to ball absent.csv
 refuses 5 "cannot read" convert --to ball .
 sed 's/^[0-9].*/0,0,0,0,0.6,0,0.8/' ball.csv | awk '!/^0/ || !n++' >rest.csv

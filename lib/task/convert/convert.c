@@ -107,6 +107,17 @@ iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *all)
 
 /* --- beginning and end ------------------------------------------------------------------------------------------ */
 
+/* A line that is read later, where nobody asks for its status. */
+static iso_status check_lines(const iso_conversion *c)
+{
+    static const char *const keys[] = {"h", "eps", "tolerance", "t0", "s0"};
+    iso_status status = ISO_OK;
+    double x;
+    for (size_t i = 0; status == ISO_OK && i < sizeof keys / sizeof *keys; i++)
+        iso_record_get_numbers(c->ctx, c->in, keys[i], 1, &x, &status);
+    return status;
+}
+
 static iso_status find_columns(iso_conversion *c)
 {
     int state[ISO_STATE];
@@ -141,11 +152,13 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
     const double miss = iso_rows_largest_miss(ctx, header, c->row_tolerance);
     c->summary.max_defect = isnan(how->max_defect) ? miss : how->max_defect;
     c->summary.max_drift = isnan(how->max_defect) ? miss : INFINITY;
-    iso_status status = find_columns(c);
+    iso_status status = check_lines(c);
+    if (status == ISO_OK) status = find_columns(c);
     if (status == ISO_OK && how->shift_J && (c->from != ISO_POINT || params->k != -1))
         status = ISO_FAIL_ARGUMENT(ctx, "shift-J", "energy can shift J for a point with k = -1 alone");
     if (status == ISO_OK) status = iso_record_effects(ctx, header, &c->effects);
     double eps;
+    c->stated_level = iso_effects_have_level(&c->effects) ? iso_effects_level(&c->effects) : 0;
     c->stated_eps = NAN;
     if (status == ISO_OK && c->from == ISO_POINT && iso_record_coupling(ctx, header, params, &eps, &status))
         c->stated_eps = eps;

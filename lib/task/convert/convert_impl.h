@@ -66,6 +66,7 @@ struct iso_conversion {
     iso_clock own, other;                /* the clocks of the two models                                        */
     int own_column, other_column;        /* their columns in `in`, -1: not there                                */
     double stated_eps;                   /* by the lines, or the first row's own; NAN: not                      */
+    double stated_level;                 /* c by the lines, 0: none                                             */
     bool replaces;                       /* the result states the first row's own h and eps                     */
     iso_effects effects;                 /* of the lines, and the level of a point off H = 0; the caller's units */
 

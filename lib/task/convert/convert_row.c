@@ -42,14 +42,13 @@ iso_status iso_conversion_open(void *data, const double row[], iso_orbit **orbit
     return open_orbit(c, start, true, orbit);
 }
 
-/* H of a point, in own units, minus the value of its level, relative. */
-static double off_level(const iso_conversion *c, const double own[ISO_STATE], double eps)
+/* H of a point, in own units, minus the value of the level c (own units; 0: none), relative. */
+static double off_level(const iso_conversion *c, const double own[ISO_STATE], double eps, double level_c)
 {
     double size;
     iso_problem problem = iso_orbit_model(c->first)->problem;
     problem.eps = eps;
-    const double c_own = iso_effects_level(&problem.effects);
-    const double level = iso_effects_have_level(&c->effects) ? iso_coupling(&problem.p, c_own) : 0;
+    const double level = iso_coupling(&problem.p, level_c);
     const double H = iso_system_point.energy(&problem, own, &size);
     return H == level ? 0 : (H - level) / fmax(size, fabs(level));
 }
@@ -65,17 +64,25 @@ static iso_status check_energy(iso_conversion *c, conversion_row *r)
         iso_worst_note(&c->summary.energy, h == c->energy ? 0 : (h - c->energy) / size, r->line);
         return ISO_OK;
     }
+    const iso_problem *first = &iso_orbit_model(c->first)->problem;
     const bool stated = !isnan(c->stated_eps);
-    const double eps = stated ? c->stated_eps / iso_unit(&c->units, iso_dimension_eps)
-                              : iso_orbit_model(c->first)->problem.eps; /* the first row's */
-    const double off = off_level(c, r->own, eps);
-    r->other_energy =
-        stated && !(fabs(off) <= fmax(1e-3, iso_conversion_digits(c))); /* methods of low order reach that */
-    if (r->other_energy)
+    const double eps = stated ? c->stated_eps / iso_unit(&c->units, iso_dimension_eps) : first->eps;
+    const double level = iso_effects_have_level(&c->effects) ? iso_effects_level(&first->effects) : 0;
+    const double off = off_level(c, r->own, eps, level), most = fmax(1e-3, iso_conversion_digits(c));
+    r->other_energy = stated && !(fabs(off) <= most); /* methods of low order reach that */
+    if (r->other_energy && c->good == 1 &&
+        fabs(off_level(c, r->own, eps, c->stated_level / iso_unit(&c->units, iso_level_dimension()))) <= most)
         return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "eps",
-                                "the energy of this point is not that of the rows before: its M does not fit eps = "
-                                "%.10g; leave out --eps and --h to take them from the first row",
-                                c->stated_eps);
+                                "this point has the energy that the lines state, but line %zu has another one: leave "
+                                "out that row, it is damaged",
+                                c->last.line);
+    if (r->other_energy)
+        return iso_context_fail(
+            c->ctx, ISO_NOT_MAPPED, "eps",
+            "the energy of this point is not that of the rows before: its M does not fit eps = "
+            "%.10g; leave out --eps and --h (or the lines # eps, # h) to take them from the first "
+            "row",
+            c->stated_eps);
     iso_worst_note(&c->summary.energy, off, r->line);
     return ISO_OK;
 }
