@@ -92,6 +92,12 @@ static iso_status check_range(iso_sweep_file *f, const yaml_node_t *node, const 
     return ISO_FAIL_AT(f, node, "a range from %s to %s is too wide", ISO_SHORT(a->from), ISO_SHORT(a->to));
 }
 
+static iso_status check_tolerance(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a, double x)
+{
+    if (strcmp(a->name, "tolerance") != 0 || iso_tolerance_is_good(x)) return ISO_OK;
+    return ISO_FAIL_AT(f, node, "'tolerance' must be in " ISO_TOLERANCE_RANGE);
+}
+
 static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
 {
     static const iso_sweep_setting settings[] = {
@@ -109,6 +115,8 @@ static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_swe
     a->values = isnan(value[2]) ? ISO_FROM_DRAWING : ISO_FROM_RANGE;
     a->count = isnan(value[2]) ? 1 : (size_t)value[2];
     a->logarithmic = value[3] > 0;
+    ISO_TRY(check_tolerance(f, node, a, a->from));
+    ISO_TRY(check_tolerance(f, node, a, a->to));
     return check_range(f, node, a);
 }
 
@@ -129,6 +137,7 @@ static iso_status read_items(iso_sweep_file *f, const yaml_node_t *node, iso_swe
         } else {
             ISO_TRY(a->width == 1 ? iso_yaml_number(&f->yaml, item, a->name, to)
                                   : iso_yaml_numbers(&f->yaml, item, a->name, a->width, to));
+            ISO_TRY(check_tolerance(f, item, a, *to));
         }
         *count += range.count;
     }
@@ -149,7 +158,7 @@ static iso_status read_list(iso_sweep_file *f, const yaml_node_t *node, iso_swee
 static iso_status read_triangle(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
 {
     static const iso_sweep_setting settings[] = {
-        {.name = "triangle", .usual = NAN, .least = 6, .most = 100000, .whole = true},
+        {.name = "triangle", .usual = NAN, .least = 3, .most = 100000, .whole = true},
         {.name = "ordered", .flag = true},
         {.name = NULL},
     };
@@ -160,6 +169,7 @@ static iso_status read_triangle(iso_sweep_file *f, const yaml_node_t *node, iso_
     a->values = ISO_FROM_TRIANGLE;
     a->sum = (long)value[0];
     a->ordered = value[1] > 0;
+    if (a->ordered && a->sum < 6) return ISO_FAIL_AT(f, node, "an ordered triangle begins at 1 + 2 + 3 = 6");
     a->count = a->ordered ? 0 : (size_t)(a->sum - 1) * (size_t)(a->sum - 2) / 2;
     for (long least = 1; a->ordered && 3 * least + 3 <= a->sum; least++)
         a->count += (size_t)((a->sum - least - 1) / 2 - least);
@@ -192,19 +202,11 @@ static iso_status read_values(iso_sweep_file *f, const yaml_node_t *node, iso_sw
         return iso_yaml_expected(&f->yaml, node, a->name,
                                  a->chart == 2 ? "a list of [l, x], or {spread: ...}" : "a list of vectors");
     ISO_TRY(make_list(f, a, 1));
-    return iso_yaml_number(&f->yaml, node, a->name, a->list);
+    ISO_TRY(iso_yaml_number(&f->yaml, node, a->name, a->list));
+    return check_tolerance(f, node, a, *a->list);
 }
 
 /* --- what must hold --------------------------------------------------------------------------------------------- */
-
-static iso_status check_tolerance(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)
-{
-    bool good = true;
-    if (strcmp(a->name, "tolerance") != 0) return ISO_OK;
-    for (size_t i = 0; a->list && i < a->count; i++) good = good && iso_tolerance_is_good(a->list[i]);
-    if (!a->list) good = iso_tolerance_is_good(a->from) && iso_tolerance_is_good(a->to);
-    return good ? ISO_OK : ISO_FAIL_AT(f, node, "'tolerance' must be in " ISO_TOLERANCE_RANGE);
-}
 
 static iso_status check_chart(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)
 {
@@ -293,7 +295,6 @@ static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
     iso_sweep_axis *a = &f->axis[f->axes++];
     ISO_TRY(find_target(f, key, a));
     ISO_TRY(read_values(f, value, a));
-    ISO_TRY(check_tolerance(f, value, a));
     ISO_TRY(check_chart(f, value, a));
     ISO_TRY(check_level(f, key, a));
     ISO_TRY(name_columns(f, key, a));
