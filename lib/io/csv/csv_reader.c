@@ -48,6 +48,8 @@ static iso_status next_line(iso_csv *c, bool *more)
     if (length >= c->longest)
         return iso_csv_fail(c, c->line, "this line is longer than 64 KiB: is this a trajectory file?");
     if (c->number == 1 && strncmp(c->line, "\xEF\xBB\xBF", 3) == 0) c->line += 3, c->length -= 3; /* byte order */
+    if (c->number == 1 && strncmp(c->line, "\x89HDF", 4) == 0)
+        return iso_csv_fail(c, c->line, "this is an HDF5 file: give its name, it is not read from a pipe");
     const char *nul = memchr(c->line, '\0', c->length);
     if (nul) return iso_csv_fail(c, nul, "a NUL byte: this is not a text file");
     while (c->length > 0 && c->line[c->length - 1] == '\r') c->line[--c->length] = '\0';
