@@ -122,8 +122,11 @@ static int run(iso_context *ctx, const void *options_given)
     const char *wish = iso_plot_section_wish(&o->page);
     if (!*kind) strcpy(kind, TRAJECTORY); /* a file of others */
     const bool trajectory = strcmp(kind, TRAJECTORY) == 0;
-    if (wish && (trajectory || o->from.columns || !has_picture(kind)))
+    const char *given = file_option_given(&o->from);
+    if (wish && (sweep || trajectory || o->from.columns || !has_picture(kind)))
         return complain("plot: --%s is for sections", wish), EXIT_USAGE;
+    if (given && !trajectory && strcmp(given, "columns") != 0)
+        return complain("plot: --%s is for trajectories", given), EXIT_USAGE;
     if (!sweep && !has_picture(kind)) return complain("plot: there is no picture of a table '%s'", kind), EXIT_USAGE;
     if (status == ISO_OK && o->value && !sweep)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");

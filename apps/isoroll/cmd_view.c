@@ -43,8 +43,8 @@ static view_kind kind_of(const file_options *from)
     if (kind == FILE_SECTION || kind == FILE_TRAJECTORY) return kind == FILE_SECTION ? SECTION : TRAJECTORY;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
         if (ends_with(from->file, endings[i])) return TRAJECTORY;
-    const bool told = from->columns || from->scene || !isnan(from->added.k) || !isnan(from->added.J[0]);
-    return told ? TRAJECTORY : SCENE;
+    const bool scene = ends_with(from->file, ".yaml") || ends_with(from->file, ".yml");
+    return !scene && file_option_given(from) ? TRAJECTORY : SCENE;
 }
 
 /* The name of the file with its folder: many scenes are called scene.yaml. */
@@ -131,6 +131,9 @@ static int run(iso_context *ctx, const void *options_given)
     const view_kind kind = has_own_scene(o) ? SCENE : kind_of(&o->from);
     if (o->live && kind != SCENE)
         return complain("view: --live computes from a scene: '%s' is none", o->from.file), EXIT_USAGE;
+    const char *given = file_option_given(&o->from);
+    if (given && kind != TRAJECTORY)
+        return complain("view: --%s is for trajectories, and this is a %s", given, names[kind]), EXIT_USAGE;
     view_page page = {.title = has_own_scene(o) ? "laboratory"
                                : standard       ? "<stdin>"
                                                 : short_name(o->from.file),

@@ -1,6 +1,18 @@
 /* parameters.c - k, J and eps of a trajectory file: from its own lines, or from the options (see parameters.h). */
 #include "parameters.h"
 
+const char *file_option_given(const file_options *o)
+{
+    const iso_file_parameters *a = &o->added;
+    if (!isnan(a->k)) return "k";
+    if (!isnan(a->J[0])) return "J";
+    if (!isnan(a->eps)) return "eps";
+    if (!isnan(a->h)) return "h";
+    if (a->row_tolerance != ISO_ROW_TOLERANCE) return "row-tolerance";
+    if (o->scene) return "scene";
+    return o->columns ? "columns" : NULL;
+}
+
 iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_record *record, iso_params *params)
 {
     iso_scene scene;

@@ -27,6 +27,9 @@ typedef struct file_options {
     ISO_OPTIONS_FILE_PARAMETERS(type, from.added), ROW_OF_ITS_SCENE(type, from.scene),                               \
         ROW_COLUMNS(type, from.columns), ISO_OPTION_ROW_TOLERANCE(type, from.added)
 
+/* The first of these options that was given, `columns` last; NULL: none. */
+const char *file_option_given(const file_options *o);
+
 /* Puts what the options say into the record of the file (its lines, its row tolerance), and reads the parameters from
  * the lines. */
 iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_record *record, iso_params *params);

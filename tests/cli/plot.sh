@@ -229,6 +229,7 @@ refuses 5 "cannot write 'pipe'" chaos absent.yaml --plot look.svg --script pipe
 scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
 run 0 chaos scene.yaml --turns 20 --starts 5 --csv chaos.csv
 refuses 2 "--window is for sections" plot bowl.csv -o none.svg --window 0:1,0:1
+refuses 2 "--k is for trajectories" plot chaos.csv -o none.svg --k 0.5
 refuses_changed chaos.csv '/^# axis/d' "the table does not say its axis" plot -o none.svg
 refuses_changed chaos.csv 's/,l,x,/,l,z,/' "the table has no column 'x'" plot -o none.svg
 check "no picture of these" test ! -e none.svg

@@ -57,6 +57,7 @@ run 0 sweep four.yaml -o four.csv
 refuses 3 "4 numbers vary" plot four.csv -o curve.svg --value state_t
 run 0 sweep signs.yaml -o part.csv --shard 1/2
 refuses 3 "merge the parts first" plot part.csv -o curve.svg
+refuses 2 "--window is for sections" plot signs.csv -o curve.svg --window 0:1,0:1
 refuses 2 "of a sweep give --value NAME" plot signs.csv -o curve.svg --columns k,state_n1
 run 0 run scene.yaml -o run.csv
 refuses 2 "--value is for results of sweeps" plot run.csv -o curve.svg --value s

@@ -95,6 +95,7 @@ check "a name that is no UTF-8" grep -q '"title":"[^"]*b??.csv"' utf8.html
 
 # --- what a file lacks is named
 refuses 2 "view: -o FILE is missing" view scene.yaml
+refuses 2 "--k is for trajectories, and this is a scene" view scene.yaml --k 1 -o page.html
 # without COLUMN...: ball.csv without these columns
 without() {
     awk -F, -v drop=" $* " '/^#/ { print; next }
