@@ -124,7 +124,8 @@ static iso_status complete(completion *c, iso_row_miss *worst)
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(c->in); i++) {
         status = copy_row(c, i);
         if (status == ISO_OK) status = i == 0 ? first_row(c, &rows) : next_row(c, &rows, i, bound, worst);
-        if (status != ISO_OK) iso_context_fail(c->ctx, status, "", "row %zu: %s", i + 1, iso_context_message(c->ctx));
+        const size_t row = status == ISO_BAD_INPUT && i > 0 ? i : i + 1; /* an orbit begins at the row before */
+        if (status != ISO_OK) iso_context_fail(c->ctx, status, "", "row %zu: %s", row, iso_context_message(c->ctx));
     }
     iso_rows_free(&rows);
     return status;

@@ -95,6 +95,9 @@ check "a name that is no UTF-8" grep -q '"title":"[^"]*b??.csv"' utf8.html
 
 # --- what a file lacks is named
 refuses 2 "view: -o FILE is missing" view scene.yaml
+run 0 run scene.yaml -o rows.csv
+awk -F, -v OFS=, '/^[0-9]/ && ++row == 3 { $2 += 0.5 } { print }' rows.csv >third.csv
+refuses 3 "third.csv: row 3: omega has a part" view third.csv -o page.html
 refuses 2 "--k is for trajectories, and this is a scene" view scene.yaml --k 1 -o page.html
 # without COLUMN...: ball.csv without these columns
 without() {
