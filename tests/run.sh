@@ -62,7 +62,7 @@ case $what in
     ;;
 --all)
     sh apps/live/sources.sh .build/live-sources || echo "no sources of GSL: view --live is left out"
-    round gcc full '' -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release
+    round gcc full '' -DISO_LIVE_BUILD=ON -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release
     if command -v clang >/dev/null; then
         round clang short "-L unit -E ^($long)\$" -DISO_LIVE=OFF -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Release
     else

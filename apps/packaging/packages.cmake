@@ -45,7 +45,7 @@ package(libisoroll-dev libdevel "rubber ball rolling on a sphere - development" 
  This package has what programs in C are compiled with.")
 package(python3-isoroll python "rubber ball rolling on a sphere - Python 3" "${words}\n\
  This package has isoroll for Python and NumPy.")
-install(DIRECTORY apps/python/isoroll DESTINATION lib/python3/dist-packages COMPONENT python3-isoroll EXCLUDE_FROM_ALL
+install(DIRECTORY apps/python/isoroll DESTINATION lib/python3/dist-packages COMPONENT python3-isoroll
         FILES_MATCHING PATTERN *.py PATTERN py.typed PATTERN __pycache__ EXCLUDE)
 if(MPI_C_FOUND)
   package(isoroll-mpi science "rubber ball rolling on a sphere - sweeps by MPI" "${words}\n\

@@ -5,7 +5,7 @@ last="view --live -o lab.html"
 if ! "$isoroll" view --live -o lab.html 2>err; then
     says "this isoroll was built without the library as WebAssembly"
     check "no page" test ! -e lab.html
-    impossible "a laboratory" "isoroll was built without emscripten or the sources of GSL"
+    impossible "a laboratory" "isoroll was built with ISO_LIVE=OFF"
 fi
 silent
 run 0 view scene.yaml --live -o scene.html

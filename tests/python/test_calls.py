@@ -286,7 +286,7 @@ class Numbers(Case):
         try:
             isoroll.view(BALL, self.path("python.html"), live=True)
         except isoroll.BadArgument as error:
-            return self.assertIn("WebAssembly", str(error))  # of a build without emscripten
+            return self.assertIn("WebAssembly", str(error))  # of a build with ISO_LIVE=OFF
         self.command("view", BALL, "--live", "-o", "command.html")
         self.same_files(self.path("command.html"), self.path("python.html"))
         self.assertIn('id="library"', isoroll.view(live=True))

@@ -16,8 +16,8 @@ iso_status view_check_build(iso_context *ctx, bool live)
     if (live && !embedded_find(view_files, "library")->name)
         return iso_context_fail(
             ctx, ISO_BAD_ARGUMENT, "",
-            "this isoroll was built without the library as WebAssembly, which --live needs: install "
-            "emscripten and node-acorn, get sources with apps/live/sources.sh, and build again");
+            "this isoroll was built without the library as WebAssembly, which --live needs: build "
+            "again without cmake -DISO_LIVE=OFF");
     if (embedded_find(view_files, "three")->length > 0) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                             "this isoroll was built without three.js, which a page needs: install it (package "

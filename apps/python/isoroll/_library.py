@@ -24,7 +24,9 @@ _OBJECT = POINTER(c_void_p)  # where a new object goes
 
 _NAMES = {"darwin": "libisoroll.0.dylib", "win32": "isoroll.dll"}
 NAME = _NAMES.get(sys.platform, "libisoroll.so.0")
-INSIDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), NAME)  # a wheel has the library
+_HERE = os.path.dirname(os.path.abspath(__file__))
+INSIDE = os.path.join(_HERE, NAME)  # a wheel has the library
+_OF_PREFIX = os.path.normpath(os.path.join(_HERE, "..", "..", "..", NAME))  # of PREFIX/lib/python3/dist-packages
 
 # --- the functions: name, result, arguments -------------------------------------------------------------------------
 
@@ -97,8 +99,7 @@ _TABLE = {
 
 def _candidates() -> Iterator[str]:
     """Names and paths to try. The loader knows the usual folders, LD_LIBRARY_PATH and ld.so.conf."""
-    if os.path.exists(INSIDE):
-        yield INSIDE
+    yield from (path for path in (INSIDE, _OF_PREFIX) if os.path.exists(path))
     yield NAME
     for prefix in (sys.prefix, "/usr/local", os.path.expanduser("~/.local")):
         yield os.path.join(prefix, "lib", NAME)
