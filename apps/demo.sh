@@ -19,9 +19,20 @@ if [ -e CMakeLists.txt ]; then
     isoroll=$to/isoroll
     log=.build/demo.log
     mkdir -p .build
-    echo "compiling in .build/demo; messages go to $log"
-    { cmake -S . -B .build/demo -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF &&
-        cmake --build .build/demo -j "$(nproc 2>/dev/null || echo 2)"; } >"$log" 2>&1 || { cat "$log"; exit 1; }
+    echo "compiling in .build/demo, three minutes of one processor; messages go to $log"
+    cmake -S . -B .build/demo -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF >"$log" 2>&1 || { cat "$log"; exit 1; }
+    { cmake --build .build/demo -j "$(nproc 2>/dev/null || echo 2)" 2>&1 || echo "cannot compile"; } | {
+        tens=0
+        while IFS= read -r line; do
+            echo "$line" >>"$log"
+            case $line in
+            "cannot compile") exit 1 ;;
+            \[*%\]*) percent=${line%%%*} && percent=${percent#\[} ;;
+            *) continue ;;
+            esac
+            [ $((percent / 10)) -le $tens ] || { tens=$((percent / 10)) && echo "  $((tens * 10)) %"; }
+        done
+    } || { cat "$log"; exit 1; }
 else
     to=$here/isoroll-demo
     isoroll=isoroll
@@ -50,6 +61,6 @@ above. So both models have the same orbits: what is known of one holds for both.
 
 END
 echo "pictures:" && for name in $names; do echo "$to/$name.svg"; done
-echo "tables:" && for name in $names; do echo "$to/$name.txt"; done
+echo "what was computed:" && for name in $names; do echo "$to/$name.txt"; done
 [ -z "$view" ] || printf 'pages, for a browser:\n%s\n%s\n' "$to/15_two_spheres.html" "$page.html"
 echo "the command: $isoroll --help"

@@ -1,7 +1,6 @@
 /* Where is the ball at t = 10? A small program that uses the library and computes the answer in two ways.
  *
- *     cc main.c $(pkg-config --cflags --libs isoroll) -Wl,-rpath,$(pkg-config --variable=libdir isoroll) -lm -o twice
- *     ./twice
+ *     cc main.c -o twice $(pkg-config --cflags --libs isoroll) -lm && ./twice
  *
  * (installed in a prefix of your own, first: export PKG_CONFIG_PATH=PREFIX/lib/pkgconfig)
  *

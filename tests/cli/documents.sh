@@ -46,24 +46,10 @@ for picture in "$source"/examples/*/*.svg; do
     check "$picture has $size bytes, at most 150000" test "$size" -le 150000
 done
 
-# --- the README's tasks, one after the other; `cost` takes a minute and has tests of its own
-mkdir examples && cp -r "$source/examples/15_two_spheres" examples
-sed -n '/^## Tasks/,/^## A scene/p' "$source/README.md" | sed -n 's/ *#.*//; s/^    \(isoroll\|cp\) /\1 /p' |
-    sed 's| ~/iso/share/doc/isoroll/| |' | grep -v cost >tasks
-check "the README has tasks" test "$(wc -l <tasks)" -ge 6
-if "$isoroll" view absent -o - 2>&1 | grep -q "built without three.js"; then
-    sed -i "/^isoroll view/d" tasks
-    skip "view" "isoroll was built without three.js"
+# --- the README, line by line
+if has gnuplot "the README's lines" && has pkg-config "the README's lines" && [ -n "${ISO_BUILD-}" ]; then
+    check "the README's lines run" sh "$source/tests/readme.sh" "$ISO_BUILD"
 fi
-if ! has gnuplot "pictures"; then
-    grep -v -e '--plot' -e '^isoroll plot' tasks >kept
-    mv kept tasks
-fi
-while read -r command; do
-    checks=$((checks + 1))
-    case $command in isoroll*) run_it="$isoroll ${command#isoroll}" ;; *) run_it=$command ;; esac
-    sh -c "$run_it" >out 2>err </dev/null || fail "the README's command '$command'"
-done <tasks
 
 # --- the README's scene
 sed -n '/^## A scene/,/^## Where/s/^    //p' "$source/README.md" >scene.yaml
