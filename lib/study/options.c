@@ -8,6 +8,7 @@
 
 #include "base/names_impl.h"
 #include "base/number_impl.h"
+#include "base/rational_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/crossings.h"
 #include "orbit/orbit_impl.h"
@@ -29,7 +30,7 @@ bool iso_set_flag(void *at, const char *text)
 
 bool iso_set_number(void *at, const char *text)
 {
-    return iso_number_read(text, strlen(text), at);
+    return iso_rational_read_double(text, strlen(text), at);
 }
 
 bool iso_set_positive(void *at, const char *text)
@@ -72,7 +73,7 @@ bool iso_set_vector(void *at, const char *text)
     double *x = at;
     for (int i = 0; i < 3; i++) {
         const size_t length = strcspn(text, ",");
-        if (!iso_number_read(text, length, &x[i]) || (text[length] == ',') != (i < 2)) return false;
+        if (!iso_rational_read_double(text, length, &x[i]) || (text[length] == ',') != (i < 2)) return false;
         text += length + 1;
     }
     return true;
@@ -214,7 +215,8 @@ static iso_status read_points(iso_context *ctx, const char *text, double (**list
     *list = more;
     for (const char *c = text; *c; c += *c == ';') {
         const size_t l = strcspn(c, ",;"), x = c[l] == ',' ? strcspn(c + l + 1, ";") : 0;
-        if (x == 0 || !iso_number_read(c, l, &more[*count][0]) || !iso_number_read(c + l + 1, x, &more[*count][1]))
+        if (x == 0 || !iso_rational_read_double(c, l, &more[*count][0]) ||
+            !iso_rational_read_double(c + l + 1, x, &more[*count][1]))
             return ISO_FAIL_ARGUMENT(
                 ctx, "", "--at '%s': expected l,x, or several of them with ; between: 0.5,0.2;1,-0.3", text);
         ++*count;

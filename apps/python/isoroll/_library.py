@@ -6,6 +6,7 @@ Only functions with plain arguments are used (lib/api/interface.h); of structs o
 from __future__ import annotations
 
 import ctypes
+import numbers
 import os
 import signal
 import sys
@@ -331,6 +332,11 @@ def number(name: str, value: Any) -> Any:
     if isinstance(value, (bool, np.bool_, np.timedelta64)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise _errors.BadType(f"{name} is {value!r:.60}, it must be a number")
     return value
+
+
+def is_fraction(value: Any) -> bool:
+    """Fraction(1, 2), of Python or of others; not a whole number."""
+    return isinstance(value, numbers.Rational) and not isinstance(value, numbers.Integral)
 
 
 def real(name: str, value: Any) -> float:

@@ -10,7 +10,7 @@ from typing import Any, Callable, Dict, Mapping
 import numpy as np
 
 from . import _errors
-from ._library import check, context, encoded, lib
+from ._library import check, context, encoded, is_fraction, lib
 
 
 def _unknown(value: Any) -> Any:
@@ -23,7 +23,7 @@ def _unknown(value: Any) -> Any:
 
 def dump(sections: Mapping[str, Any]) -> bytes:
     """A dict as YAML, in JSON's form, a line for each section. Numbers read back to the same doubles, and fractions,
-    such as "1/3", as what they are."""
+    such as "1/3" and Fraction(1, 3), as what they are."""
     json_of = json.JSONEncoder(ensure_ascii=False, default=_unknown).encode
     try:
         text = "".join(f"{json_of(str(key))}: {json_of(value)}\n" for key, value in sections.items())
@@ -42,6 +42,8 @@ def plain(value: Any) -> Any:
         return [plain(item) for item in value]
     if isinstance(value, np.floating):
         return float(value)
+    if is_fraction(value):
+        return f"{value.numerator}/{value.denominator}"
     if isinstance(value, (np.ndarray, np.generic)) and not np.ma.is_masked(value):
         return value.tolist()
     return value

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number_impl.h"
+#include "base/rational_impl.h"
 #include "instrument/periodic/periodic_study_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/fields_impl.h"
@@ -46,8 +46,8 @@ static iso_status prepare(iso_context *ctx, void *options)
 static bool read_range(const char *text, double range[2])
 {
     const char *colon = strchr(text, ':');
-    return colon && iso_number_read(text, (size_t)(colon - text), &range[0]) &&
-           iso_number_read(colon + 1, strlen(colon + 1), &range[1]);
+    return colon && iso_rational_read_double(text, (size_t)(colon - text), &range[0]) &&
+           iso_rational_read_double(colon + 1, strlen(colon + 1), &range[1]);
 }
 
 /* Which of the names stands before "=", or is all of the text; -1: none. */
@@ -206,7 +206,7 @@ static iso_status read_chart(iso_context *ctx, const iso_scene *scene, const iso
         ISO_TRY(iso_level_of_scene(ctx, scene, "the chart is drawn", &o->level));
     else if (o->moment == ISO_CHART_LEVEL)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--level does not go with --chart level=A:B");
-    else if (!iso_number_read(r->level, strlen(r->level), &o->level))
+    else if (!iso_rational_read_double(r->level, strlen(r->level), &o->level))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--level '%s': expected a number", r->level);
     const double one = o->J[(o->moment + 1) % 3], other = o->J[(o->moment + 2) % 3];
     double k[2] = {o->from[0], o->to[0]}, moment[2] = {fmin(one, other), one + other};

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/names_impl.h"
-#include "base/number_impl.h"
+#include "base/rational_impl.h"
 #include "instrument/section/section.h"
 #include "instrument/section/section_impl.h"
 #include "orbit/orbit_impl.h"
@@ -20,7 +20,7 @@ static iso_status read_event(iso_context *ctx, const char *text, iso_section_opt
     const size_t length = text ? strcspn(text, "=") : 0;
     if (!text) return ISO_OK;
     if (length < sizeof name) memcpy(name, text, length);
-    if (text[length] != '=' || !iso_number_read(text + length + 1, strlen(text + length + 1), &how->value))
+    if (text[length] != '=' || !iso_rational_read_double(text + length + 1, strlen(text + length + 1), &how->value))
         return ISO_FAIL_ARGUMENT(ctx, "", "--event '%s': expected COLUMN=VALUE, such as omega1=0.5", text);
     how->column = iso_column_find(name);
     if (how->column >= ISO_CLOCKS) return ISO_OK;
