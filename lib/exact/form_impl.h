@@ -27,12 +27,9 @@ typedef struct iso_form {
     real (*rate)(const void *data, iso_clock clock);
 
     /* On a separatrix: the axis of the rotation that the orbit leaves and comes back to; else -1. The form is right
-     * until the orbit has come back, and wrong after that. */
+     * until the orbit has come back, and wrong after that. NULL: never. */
     int (*unstable)(const void *data);
 
-    /* The angles of a state on the torus, and back; NULL where there are none. */
-    bool (*angles)(const void *data, const double point[ISO_STATE], double angle[2]);
-    void (*point)(const void *data, const double angle[2], double point[ISO_STATE]);
     void (*describe)(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *torus);
 } iso_form;
 

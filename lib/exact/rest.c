@@ -47,22 +47,11 @@ static real rate(const void *data, iso_clock clock)
     return ((const rest *)data)->rate[clock];
 }
 
-static int unstable(const void *data)
-{
-    (void)data;
-    return -1;
-}
-
 static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *to)
 {
     (void)data, (void)clocks;
     to->kind = ISO_EXACT_REST;
 }
 
-const iso_form iso_form_rest = {.serves = serves,
-                                .make = make,
-                                .free = free,
-                                .find = find,
-                                .rate = rate,
-                                .unstable = unstable,
-                                .describe = describe};
+const iso_form iso_form_rest = {
+    .serves = serves, .make = make, .free = free, .find = find, .rate = rate, .describe = describe};
