@@ -7,8 +7,6 @@
 #include "base/math_impl.h"
 #include "base/pool_impl.h"
 #include "instrument/separatrix/separatrix_impl.h"
-#include "orbit/orbit_impl.h"
-#include "study/study_impl.h"
 
 /* m has the zeros k = 1 and k = -1 anyway. Others are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1), which is of the
  * same size everywhere. Two neighbours with one between, along k or along the level. */
@@ -23,7 +21,6 @@ typedef struct bracket {
 typedef struct scan {
     const iso_separatrix_options *o;
     iso_separatrix_table *s;
-    double level; /* where the options have none */
     const bracket *bracket;
     atomic_size_t done;
 } scan;
@@ -36,18 +33,12 @@ static double reduced(const iso_separatrix_splitting *s, double m)
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-static double level_of(const scan *c, size_t i)
-{
-    return c->o->level ? c->o->level[i] : c->level;
-}
-
 static bool solve_rows(iso_pool_worker *w, void *data, size_t first, size_t count)
 {
     scan *c = data;
     for (size_t i = first; i < first + count; i++) {
-        if (iso_separatrix_at(w->ctx, c->o->k[i], c->o->J, level_of(c, i), c->o->digits, &c->s->row[i]) ==
-            ISO_NO_MEMORY)
-            return false;
+        iso_separatrix_splitting *s = &c->s->row[i];
+        if (iso_separatrix_at(w->ctx, s->k, c->o->J, s->level, c->o->digits, s) == ISO_NO_MEMORY) return false;
         const size_t now = atomic_fetch_add(&c->done, 1) + 1;
         if (w->asks && c->o->progress) c->o->progress(c->o->data, (double)now / (double)c->o->count);
     }
@@ -188,39 +179,32 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
     return status;
 }
 
-iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *options, iso_separatrix_table **s)
+iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *o, iso_separatrix_table **s)
 {
     ISO_DEFAULT_ARITHMETIC;
     *s = NULL;
-    iso_separatrix_options o = options ? *options : iso_separatrix_defaults();
-    scan c = {.o = &o};
-    if (o.count == 0) return ISO_FAIL_ARGUMENT(ctx, "k", "splitting: there is no k");
-    ISO_TRY(iso_refuse_equal_moments(ctx, o.J, ISO_NO_SPLITTING));
-    if (o.scene) {
-        const iso_effects acting = iso_scene_acting(o.scene);
-        ISO_TRY(o.level ? iso_refuse_beyond_level(ctx, &acting, ISO_SPLITTING_IS)
-                        : iso_level_of_scene(ctx, o.scene, ISO_SPLITTING_IS, &c.level));
-    }
-    iso_separatrix_table *found = c.s = calloc(1, sizeof *found);
-    if (found) found->row = calloc(o.count, sizeof *found->row);
-    iso_status status = found && found->row ? ISO_OK : iso_context_no_memory(ctx, "%zu rows", o.count);
+    if (o->count == 0) return ISO_FAIL_ARGUMENT(ctx, "k", "splitting: there is no k");
+    iso_separatrix_table *found = calloc(1, sizeof *found);
+    scan c = {.o = o, .s = found};
+    if (found) found->row = calloc(o->count, sizeof *found->row);
+    iso_status status = found && found->row ? ISO_OK : iso_context_no_memory(ctx, "%zu rows", o->count);
     if (status == ISO_OK) {
-        found->rows = o.count;
+        found->rows = o->count;
         found->axis = found->middle = -1;
-        for (size_t i = 0; i < o.count; i++)
-            found->row[i] = (iso_separatrix_splitting){.k = o.k[i],
-                                                       .level = level_of(&c, i),
+        for (size_t i = 0; i < o->count; i++)
+            found->row[i] = (iso_separatrix_splitting){.k = o->k[i],
+                                                       .level = o->level ? o->level[i] : 0,
                                                        .status = ISO_STOPPED,
                                                        .text = "not computed",
                                                        .m = NAN,
                                                        .x = NAN};
-        status = run_pool(ctx, &c, o.count, solve_rows);
-        for (const iso_separatrix_splitting *row = found->row; row < found->row + o.count; row++) {
+        status = run_pool(ctx, &c, o->count, solve_rows);
+        for (const iso_separatrix_splitting *row = found->row; row < found->row + o->count; row++) {
             if (row->status == ISO_OK) found->axis = row->axis, found->middle = row->middle;
             found->by_level = found->by_level || row->level != found->row->level;
         }
     }
-    if (status == ISO_OK && o.zeros) status = run_zeros(ctx, &c);
+    if (status == ISO_OK) status = run_zeros(ctx, &c);
     if (status != ISO_OK && status != ISO_STOPPED) iso_separatrix_free(found), found = NULL;
     *s = found;
     return status;
