@@ -25,7 +25,7 @@ typedef struct homoclinic_end {
 
 struct iso_exact {
     const iso_form *form;
-    void *data;
+    form_motion motion;
     double frame[9]; /* its rows are the axes in which the form works, in the caller's ... */
     bool turned;     /* ... if they are others                                            */
     iso_params params;
@@ -132,7 +132,7 @@ static void count_moment(const iso_exact *x, iso_clock clock, real time, form_pl
     real mean[ISO_CLOCKS] = {0};
     for (int i = 0; i < 5; i++) {
         form_place at = {.along = NAN};
-        x->form->find(x->data, clock, time * (1 + node[i]) / 2, &at);
+        x->form->find(x->motion.data, clock, time * (1 + node[i]) / 2, &at);
         const double q = dot_diag(at.point + 3, x->params.J, at.point + 3);
         const double own = iso_clock_rate(&x->params, clock, q, NULL);
         for (iso_clock c = 0; c < ISO_CLOCKS; c++)
@@ -148,7 +148,7 @@ static void find(const iso_exact *x, iso_clock clock, real time, form_place *p)
     const bool earlier = x->past.rotation && time < x->past.clock[clock];
     const homoclinic_end *end = later ? &x->future : &x->past;
     if (!later && !earlier) {
-        x->form->find(x->data, clock, time, p);
+        x->form->find(x->motion.data, clock, time, p);
         if (fabsl(time) < x->moment[clock]) count_moment(x, clock, time, p);
         return;
     }
@@ -164,16 +164,18 @@ enum { STEPS_A_TURN = 32, MOST_TURNS = 20000 };
 
 /* Goes away from time 0 until gamma has stayed in the plane of the unstable rotation, to rounding, for a whole turn.
  * The rotation begins there. */
-static iso_status find_end(iso_context *ctx, const iso_problem *f, const iso_exact *x, int axis, int direction,
+static iso_status find_end(iso_context *ctx, const iso_problem *f, const iso_exact *x, int direction,
                            homoclinic_end *end)
 {
-    const int clock = x->has[ISO_CLOCK_T] ? ISO_CLOCK_T : x->has[ISO_CLOCK_S] ? ISO_CLOCK_S : ISO_CLOCK_TAU;
+    const int axis = x->motion.unstable, clock = x->has[ISO_CLOCK_T]   ? ISO_CLOCK_T
+                                                 : x->has[ISO_CLOCK_S] ? ISO_CLOCK_S
+                                                                       : ISO_CLOCK_TAU;
     form_place p = {.along = NAN};
     real time = 0;
     int near = 0;
     for (int i = 0; i < STEPS_A_TURN * MOST_TURNS && near < STEPS_A_TURN; i++) {
         p.along = NAN;
-        x->form->find(x->data, (iso_clock)clock, time, &p);
+        x->form->find(x->motion.data, (iso_clock)clock, time, &p);
         const double *g = p.point + 3, q = dot_diag(g, f->p.J, g), speed = norm(p.point);
         near = fabs(g[axis]) < 1e-16 ? near + 1 : 0;
         time += direction * iso_clock_rate(&f->p, (iso_clock)clock, q, NULL) /
@@ -200,11 +202,11 @@ static bool begins(const iso_exact *x, const iso_problem *f, const double point[
     for (int c = 0; c < ISO_CLOCKS; c++) {
         form_place p = {.along = NAN};
         if (!x->has[c]) continue;
-        x->form->find(x->data, (iso_clock)c, x->form->rate(x->data, (iso_clock)c), &p);
+        x->form->find(x->motion.data, (iso_clock)c, x->motion.rate[c], &p);
         if (!all_finite(p.point, ISO_STATE)) return false;
         if (!(fabs(iso_system_point.energy(f, p.point, &size) - f->energy) <= near * size)) return false;
         p.along = NAN;
-        x->form->find(x->data, (iso_clock)c, 0, &p);
+        x->form->find(x->motion.data, (iso_clock)c, 0, &p);
         for (int i = 0; i < 3; i++)
             if (!(fabs(p.point[3 + i] - g[i] / length) < 1e-9)) return false;
     }
@@ -218,7 +220,8 @@ static iso_status create(iso_context *ctx, iso_problem *f, double start[ISO_STAT
     turn_axes(x, f, start);
     ISO_TRY(find_form(ctx, f, start, &x->form));
     for (int c = 0; c < ISO_CLOCKS; c++) x->has[c] = clocks[c];
-    const iso_status status = x->form->make(f, start, x->has, &x->data);
+    x->motion.unstable = -1;
+    const iso_status status = x->form->make(f, start, x->has, &x->motion);
     if (status == ISO_NO_MEMORY) return iso_context_fail(ctx, status, "", "no memory for a closed solution");
     if (status != ISO_OK)
         return iso_context_fail(ctx, status, "",
@@ -229,10 +232,9 @@ static iso_status create(iso_context *ctx, iso_problem *f, double start[ISO_STAT
             ctx, "the closed solution has too few digits: a body too extreme, or an orbit that comes to rest");
     x->params = f->p;
     find_moments(f, start, x->moment);
-    const int axis = x->form->unstable ? x->form->unstable(x->data) : -1;
-    if (axis < 0) return ISO_OK;
-    ISO_TRY(find_end(ctx, f, x, axis, -1, &x->past));
-    return find_end(ctx, f, x, axis, 1, &x->future);
+    if (x->motion.unstable < 0) return ISO_OK;
+    ISO_TRY(find_end(ctx, f, x, -1, &x->past));
+    return find_end(ctx, f, x, 1, &x->future);
 }
 
 iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const double point[ISO_STATE],
@@ -254,7 +256,7 @@ void iso_exact_free(iso_exact *x)
     if (!x) return;
     iso_exact_free(x->past.rotation);
     iso_exact_free(x->future.rotation);
-    if (x->form) x->form->free(x->data);
+    if (x->form) x->form->free(x->motion.data);
     free(x);
 }
 
@@ -285,7 +287,7 @@ iso_status iso_exact_walk_to(iso_context *ctx, const iso_exact *x, iso_exact_wal
                                  iso_clock_name(clock));
     if (!isfinite(time)) return ISO_FAIL_ARGUMENT(ctx, "", "a time is not finite");
     if (w->known > 0 && !(fabs(time - w->time) <= LONGEST * x->moment[clock])) w->known = 0;
-    const real even = time / x->form->rate(x->data, clock);
+    const real even = time / x->motion.rate[clock];
     const real guess = w->known == ISO_EXACT_TRAIL ? even + extrapolate(w->trail, ISO_EXACT_TRAIL) : NAN;
     form_place p = {.along = guess};
     find(x, clock, time, &p);
@@ -300,8 +302,9 @@ iso_status iso_exact_walk_to(iso_context *ctx, const iso_exact *x, iso_exact_wal
     }
     bool finite = all_finite(p.point, ISO_STATE);
     for (int c = 0; c < ISO_CLOCKS; c++) {
-        clocks[c] = x->has[c] ? (double)p.clock[c] : NAN;
-        finite = finite && (!x->has[c] || isfinite(clocks[c]));
+        const double shown = x->has[c] ? (double)p.clock[c] : NAN;
+        finite = finite && (!x->has[c] || isfinite(shown));
+        if (clocks) clocks[c] = shown;
     }
     return finite ? ISO_OK : ISO_FAIL_NUMERICAL(ctx, "the closed solution is not finite, or has no memory");
 }
@@ -318,7 +321,7 @@ iso_exact_torus iso_exact_describe(const iso_exact *x)
     iso_exact_torus nothing = {.action = {NAN, NAN}, .c = NAN, .distance = NAN};
     for (int c = 0; c < ISO_CLOCKS; c++) nothing.frequency[c][0] = nothing.frequency[c][1] = NAN;
     iso_exact_torus torus = nothing;
-    x->form->describe(x->data, x->has, &torus);
+    x->form->describe(x->motion.data, x->has, &torus);
     if (!x->past.rotation) return torus;
     nothing.kind = ISO_EXACT_SEPARATRIX;
     nothing.c = torus.c;

@@ -39,7 +39,7 @@ iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const 
 void iso_exact_free(iso_exact *exact);
 
 /* The state (M, gamma) at `time` of `clock`, before or after 0, and the clocks there (NaN: not among those of the
- * creation). Errors: ISO_BAD_ARGUMENT: a time that is not finite, a clock that was not among them; ISO_NUMERICAL: no
+ * creation; NULL: not asked for). Errors: ISO_BAD_ARGUMENT: a time that is not finite, a clock that was not among them; ISO_NUMERICAL: no
  * finite state, or a clock that does not fit a double. */
 iso_status iso_exact_at(iso_context *ctx, const iso_exact *exact, iso_clock clock, double time,
                         double point[ISO_STATE], double clocks[ISO_CLOCKS]);

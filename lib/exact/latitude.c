@@ -39,20 +39,15 @@ static real power_bend(const latitude *r, real power, real x, real y, real z)
     return scale * powl(q, power - 1) * sum;
 }
 
-/* What m is times q^power/(power (J_a - J_e)) */
-static real steepness(const latitude *r)
-{
-    return 2 * r->eps * (r->Ja - r->Je) * r->power;
-}
-
+/* m[y,z] and m[x,y,z]: m is q^power/(power (J_a - J_e)) times 2 eps (J_a - J_e) power, but for a constant. */
 static real slope(const latitude *r, real y, real z)
 {
-    return steepness(r) * power_slope(r, r->power, y, z);
+    return 2 * r->eps * (r->Ja - r->Je) * r->power * power_slope(r, r->power, y, z);
 }
 
 static real bend(const latitude *r, real x, real y, real z)
 {
-    return steepness(r) * power_bend(r, r->power, x, y, z);
+    return 2 * r->eps * (r->Ja - r->Je) * r->power * power_bend(r, r->power, x, y, z);
 }
 
 /* m(y). Off the level H = 0 it is M^2 of the start plus a difference: M^2 may be small beside its two terms. */

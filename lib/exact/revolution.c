@@ -300,11 +300,11 @@ static void find_longitude(revolution *r, const real g[3], const real d[3])
 }
 
 static iso_status make(const iso_problem *f, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
-                       void **data)
+                       form_motion *m)
 {
     (void)clocks; /* all of them cost little */
     real g[3], d[3];
-    revolution *r = *data = calloc(1, sizeof *r);
+    revolution *r = m->data = calloc(1, sizeof *r);
     if (!r) return ISO_NO_MEMORY;
     read_body(r, f, point);
     read_state(r, point, g, d);
@@ -315,6 +315,8 @@ static iso_status make(const iso_problem *f, const double point[ISO_STATE], cons
     find_start(r);
     const iso_status status = find_series(r);
     if (status == ISO_OK) find_longitude(r, g, d);
+    for (int c = 0; c < ISO_CLOCKS; c++) m->rate[c] = r->of[c].mean;
+    m->unstable = x->homoclinic ? r->axis[0] : -1;
     return status;
 }
 
@@ -342,17 +344,6 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     state_at(r, p->along, p->point);
 }
 
-static int unstable(const void *data)
-{
-    const revolution *r = data;
-    return r->x.homoclinic ? r->axis[0] : -1;
-}
-
-static real mean_rate(const void *data, iso_clock clock)
-{
-    return ((const revolution *)data)->of[clock].mean;
-}
-
 static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *to)
 {
     const revolution *r = data;
@@ -375,10 +366,5 @@ static void release(void *data)
     free(data);
 }
 
-const iso_form iso_form_revolution = {.serves = serves,
-                                      .make = make,
-                                      .free = release,
-                                      .find = find,
-                                      .rate = mean_rate,
-                                      .unstable = unstable,
-                                      .describe = describe};
+const iso_form iso_form_revolution = {
+    .serves = serves, .make = make, .free = release, .find = find, .describe = describe};

@@ -359,9 +359,9 @@ static void release(void *data)
 }
 
 static iso_status make(const iso_problem *problem, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
-                       void **data)
+                       form_motion *m)
 {
-    torus *x = *data = calloc(1, sizeof *x);
+    torus *x = m->data = calloc(1, sizeof *x);
     iso_status status = ISO_OK;
     angles a;
     if (!x) return ISO_NO_MEMORY;
@@ -377,20 +377,13 @@ static iso_status make(const iso_problem *problem, const double point[ISO_STATE]
     if (x->s.coordinate[1].terms >= x->columns) x->columns = x->s.coordinate[1].terms + 1;
     if (status != ISO_OK || !open_angles(x, &a)) return status != ISO_OK ? status : ISO_NO_MEMORY;
     set_angles(x, 0, ALL, &a);
-    for (int c = 0; c < ISO_CLOCKS; c++)
+    for (int c = 0; c < ISO_CLOCKS; c++) {
         if (clocks[c]) x->clock[c].zero = (double)(clock_at(&x->clock[c], ALL, ALL, &a) - x->s.before[c]);
+        m->rate[c] = x->clock[c].mean;
+    }
+    m->unstable = x->s.unstable;
     free(a.heap);
     return status;
-}
-
-static int unstable(const void *data)
-{
-    return ((const torus *)data)->s.unstable;
-}
-
-static real mean_rate(const void *data, iso_clock clock)
-{
-    return ((const torus *)data)->clock[clock].mean;
 }
 
 /* (1/2 pi) times the integral of |p_z dz| over one swing. p_z = (dz/dsigma)/(4 A), so
@@ -426,10 +419,5 @@ static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_
     }
 }
 
-const iso_form iso_form_separated = {.serves = serves,
-                                     .make = make,
-                                     .free = release,
-                                     .find = find,
-                                     .rate = mean_rate,
-                                     .unstable = unstable,
-                                     .describe = describe};
+const iso_form iso_form_separated = {
+    .serves = serves, .make = make, .free = release, .find = find, .describe = describe};
