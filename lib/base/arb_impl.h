@@ -24,7 +24,7 @@ static inline void iso_balls_clear(void *balls, size_t size)
 
 /* Balls for the work of a block: 0 at first, cleared where the block ends, by a return as well.
  *
- *     ISO_BALLS(x, y);                       arb_t x, y; up to five
+ *     ISO_BALLS(x, y);                       arb_t x, y; up to four
  *     ISO_BALL_ROW(z, 3);                    arb_struct z[3]
  *     pair p;   ISO_BALLS_OF(p);             a struct of balls that is there already
  */
@@ -59,11 +59,7 @@ static inline void iso_balls_end(const iso_balls_list *list)
 #define ISO_BALLS_4(x, ...)                                                                                          \
     ISO_BALLS_1(x);                                                                                                  \
     ISO_BALLS_3(__VA_ARGS__)
-#define ISO_BALLS_5(x, ...)                                                                                          \
-    ISO_BALLS_1(x);                                                                                                  \
-    ISO_BALLS_4(__VA_ARGS__)
-#define ISO_BALLS_FOR(a, b, c, d, e, name, ...) name
-#define ISO_BALLS(...)                                                                                               \
-    ISO_BALLS_FOR(__VA_ARGS__, ISO_BALLS_5, ISO_BALLS_4, ISO_BALLS_3, ISO_BALLS_2, ISO_BALLS_1, )(__VA_ARGS__)
+#define ISO_BALLS_FOR(a, b, c, d, name, ...) name
+#define ISO_BALLS(...) ISO_BALLS_FOR(__VA_ARGS__, ISO_BALLS_4, ISO_BALLS_3, ISO_BALLS_2, ISO_BALLS_1, )(__VA_ARGS__)
 
 #endif

@@ -39,7 +39,8 @@ static void write_equations(prove_flow *f, int numbers)
 {
     iso_tape *t = &f->tape;
     int y[PROVE_STATE];
-    ISO_BALLS(one, two, minus, x, rest);
+    ISO_BALLS(one, two, minus);
+    ISO_BALLS(x, rest);
     arb_one(one), arb_set_si(two, 2), arb_set_si(minus, -1), arb_one(rest);
     iso_tape_init(t);
     for (int i = 0; i < numbers; i++) y[i] = iso_tape_state(t);

@@ -127,16 +127,6 @@ static int by_k(const void *a, const void *b)
     return ((*one)->level > (*other)->level) - ((*one)->level < (*other)->level);
 }
 
-static bool is_bracket(const iso_separatrix_splitting *a, const iso_separatrix_splitting *b, bracket *found)
-{
-    const bool fine = a->digits > 19 || b->digits > 19, by_level = a->k == b->k;
-    *found =
-        (bracket){by_level, by_level ? a->k : a->level, {a->k, b->k}, {reduced(a, a->m), reduced(b, b->m)}, 0, fine};
-    if (by_level) found->at[0] = a->level, found->at[1] = b->level;
-    found->width = fabs(found->at[1] - found->at[0]);
-    return a->k * b->k > 0 && (by_level || a->level == b->level) && found->r[0] * found->r[1] < 0;
-}
-
 /* Between neighbours, by growing k, of the rows that are distinguished from 0. list: room for the rows. */
 static size_t find_brackets(const iso_separatrix_table *s, const iso_separatrix_splitting *list[], bracket brackets[])
 {
@@ -144,7 +134,16 @@ static size_t find_brackets(const iso_separatrix_table *s, const iso_separatrix_
     for (size_t i = 0; i < s->rows; i++)
         if (s->row[i].status == ISO_OK && s->row[i].from_zero) list[rows++] = &s->row[i];
     qsort(list, rows, sizeof *list, by_k);
-    for (size_t i = 0; i + 1 < rows; i++) count += is_bracket(list[i], list[i + 1], &brackets[count]);
+    for (size_t i = 0; i + 1 < rows; i++) {
+        const iso_separatrix_splitting *a = list[i], *b = list[i + 1];
+        const bool by_level = a->k == b->k, fine = a->digits > 19 || b->digits > 19;
+        const double from = by_level ? a->level : a->k, to = by_level ? b->level : b->k;
+        const bracket found = {by_level,        by_level ? a->k : a->level,
+                               {from, to},      {reduced(a, a->m), reduced(b, b->m)},
+                               fabs(to - from), fine};
+        if (a->k * b->k > 0 && (by_level || a->level == b->level) && found.r[0] * found.r[1] < 0)
+            brackets[count++] = found;
+    }
     return count;
 }
 
