@@ -72,23 +72,22 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
     iso_separatrix_splitting s;
     int kept = -1;
     double r = NAN, error = NAN, aside = NAN, end[2] = {b->r[0], b->r[1]};
-    iso_status status = ISO_OK;
-    for (int i = 0; i < MOST && status == ISO_OK; i++) {
+    for (int i = 0; i < MOST; i++) {
         const double last = *at;
         *at = (b->at[0] * end[1] - b->at[1] * end[0]) / (end[1] - end[0]);
-        status = value_at(w, c, b, *at, false, &s, &r, &error);
+        ISO_TRY(value_at(w, c, b, *at, false, &s, &r, &error));
         /* next to +-1 r is not known: m is not distinguished from 0 there, zero of r or not */
-        if (status == ISO_OK && !(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100)) return ISO_NUMERICAL;
-        if (status != ISO_OK || fabs(r) < 10 * error || fabs(*at - last) < 1e-12 * size_of(b, *at)) break;
+        if (!(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100)) return ISO_NUMERICAL;
+        if (fabs(r) < 10 * error || fabs(*at - last) < 1e-12 * size_of(b, *at)) break;
         const int side = r * end[0] > 0 ? 0 : 1;
         b->at[side] = *at, end[side] = r;
         if (kept == 1 - side) end[1 - side] /= 2;
         kept = 1 - side;
     }
     const double step = copysign(1e-4 * size_of(b, *at), *at);
-    if (status == ISO_OK) status = value_at(w, c, b, *at + step, false, &s, &aside, &error);
+    ISO_TRY(value_at(w, c, b, *at + step, false, &s, &aside, &error));
     *slope = (aside - r) / step;
-    return status;
+    return ISO_OK;
 }
 
 /* Goes on from the zero of the search by the secant method, with the digits that were asked for. It ends where m is
@@ -98,9 +97,9 @@ static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_se
 {
     enum { MOST = 8 };
     double at = NAN, slope = NAN, last = NAN, last_r = NAN, least = 0, r = NAN, error = NAN;
-    iso_status status = search(w, c, &b, &at, &slope);
-    for (int i = 0; i < MOST && status == ISO_OK; i++) {
-        status = value_at(w, c, &b, at, true, zero, &r, &error);
+    ISO_TRY(search(w, c, &b, &at, &slope));
+    for (int i = 0; i < MOST; i++) {
+        ISO_TRY(value_at(w, c, &b, at, true, zero, &r, &error));
         if (i > 0 && fabs(at - last) > 1e-12 * size_of(&b, at)) slope = (r - last_r) / (at - last);
         least = 4e-16 * fabs(slope) * size_of(&b, at);
         if (fabs(r) < fmax(10 * error, least)) break;
@@ -108,8 +107,8 @@ static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_se
         at -= r / slope;
     }
     *(b.by_level ? &zero->level_error : &zero->k_error) = fmax(fabs(r) + error, least) / fabs(slope);
-    zero->is_zero = status == ISO_OK;
-    return status;
+    zero->is_zero = true;
+    return ISO_OK;
 }
 
 static bool solve_zeros(iso_pool_worker *w, void *data, size_t first, size_t count)
