@@ -264,7 +264,7 @@ static real between(const separation *s, int i, int j)
 
 /* Which root belongs to sn, cn, dn and the base of an oscillation. A root that has none of these roles lies beyond
  * the root of cn or beyond that of dn; of it the distance from the root of cn is kept. */
-static void give_roles(separation *s, int which, int sn, int cn, int dn, int base)
+static void set_roles(separation *s, int which, int sn, int cn, int dn, int base)
 {
     const oscillation *o = &s->coordinate[which];
     const int root[4] = {sn, cn, dn, base};
@@ -296,7 +296,7 @@ static real make_lower(separation *s, int a, int b, int c, int d, int e)
     o->power = s->k == 1 ? -2 : 0;
     o->rests = s->k == 1 ? 1 : 2;
     if (s->k == -1) o->far[1] = between(s, c, e);
-    give_roles(s, U, d, c, b, OUTSIDE);
+    set_roles(s, U, d, c, b, OUTSIDE);
     return between(s, c, b) / bd * o->left;
 }
 
@@ -317,7 +317,7 @@ static real make_upper(separation *s, int a, int b, int c, int d, int e)
     o->power = s->k == 1 ? -1 : 0;
     o->rests = 1;
     o->far[0] = between(s, d, b);
-    give_roles(s, V, a, b, c, s->k == 1 ? OUTSIDE : e);
+    set_roles(s, V, a, b, c, s->k == 1 ? OUTSIDE : e);
     return between(s, c, b) / ac * o->left;
 }
 

@@ -110,7 +110,7 @@ static bool integrate(const separation *s, torus_clock *c, const double d[], int
 
 /* enough[0]: whether the last eighth of the terms in m is as small as the rounding errors of a rate of size `most`;
  * enough[1]: the same in n. If not, the grid of (2) is too coarse. */
-static void find_tails(const double d[], int M, int N, double most, bool enough[2])
+static void check_resolution(const double d[], int M, int N, double most, bool enough[2])
 {
     enough[0] = enough[1] = true;
     for (int m = 0; m <= M; m++)
@@ -141,7 +141,7 @@ static iso_status make_clock(const separation *s, iso_clock clock, torus_clock *
     c->mean = mean / M / N;
     for (int j = 0; room && j <= M; j++) cosine_series(d + j * columns, N, 1, work);
     for (int l = 0; room && l <= N; l++) cosine_series(d + l, M, columns, work);
-    if (room) find_tails(d, M, N, (double)most, enough);
+    if (room) check_resolution(d, M, N, (double)most, enough);
     if (room && enough[0] && enough[1]) room = integrate(s, c, d, M, N);
     free(d);
     free(work);

@@ -108,7 +108,7 @@ double certify_set_lost(const certify_set *s);
 /* --- arb_orbit.c ------------------------------------------------------------------------------------------------- */
 
 /* Closes a stream in memory, passes its text to the sink and frees it. */
-iso_status certify_give(iso_context *ctx, const iso_certify_sink *sink, FILE *to, char **text);
+iso_status certify_pass(iso_context *ctx, const iso_certify_sink *sink, FILE *to, char **text);
 
 /* The line of the names of the columns: three clocks, then the states of these models. */
 void certify_print_columns(FILE *to, iso_models as);

@@ -18,7 +18,7 @@ typedef struct reader {
     iso_model_kind to, from;
     char *line;
     size_t room, number;
-    FILE *head; /* of the result, which is given away when the whole head is known to be good */
+    FILE *head; /* of the result, which is passed on when the whole head is known to be good */
     int digits; /* 0: not yet stated */
     certify_exact exact;
     bool has_k, has_J;
@@ -113,7 +113,7 @@ static iso_status convert_head(reader *r)
     if (!r->head) return iso_context_no_memory(r->ctx, "a head");
     const iso_status status = read_head(r);
     certify_print_columns(r->head, (iso_models)r->to);
-    if (status == ISO_OK) return certify_give(r->ctx, r->sink, r->head, &text);
+    if (status == ISO_OK) return certify_pass(r->ctx, r->sink, r->head, &text);
     fclose(r->head);
     free(text);
     return status;
@@ -176,7 +176,7 @@ static iso_status convert_row(reader *r, arb_ptr x)
     FILE *to = open_memstream(&text, &length);
     if (!to) return iso_context_no_memory(r->ctx, "a row");
     certify_write_row(&r->ball, x, r->to, x + ISO_CLOCKS, (iso_models)r->to, r->digits, to);
-    return certify_give(r->ctx, r->sink, to, &text);
+    return certify_pass(r->ctx, r->sink, to, &text);
 }
 
 iso_status iso_certify_convert(iso_context *ctx, FILE *file, const char *name, iso_model_kind to,

@@ -1,7 +1,7 @@
 /* arb_orbit.c - the rows of a certified orbit (certify_impl.h).
  *
  * The set is carried with numbers of more digits than the rows are to hold. If it grows too wide before the last row,
- * all is done again with more; rows that were given away stay as they are.
+ * all is done again with more; rows that were passed on stay as they are.
  */
 #include <math.h>
 #include <stddef.h>
@@ -40,7 +40,7 @@ static iso_models shown(const work *w)
     return scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
 }
 
-iso_status certify_give(iso_context *ctx, const iso_certify_sink *sink, FILE *to, char **text)
+iso_status certify_pass(iso_context *ctx, const iso_certify_sink *sink, FILE *to, char **text)
 {
     const bool whole = fclose(to) == 0 && *text;
     const iso_status status = whole ? sink->line(sink->data, *text) : iso_context_no_memory(ctx, "a row");
@@ -99,7 +99,7 @@ static iso_status write_head(work *w)
     fprintf(to, "# backend: %s\n# digits: %d\n", iso_model_kind_name((int)w->p->backend), w->p->options.digits);
     fprintf(to, "# isoroll: %s\n", ISO_VERSION);
     certify_print_columns(to, shown(w));
-    return certify_give(w->ctx, w->sink, to, &text);
+    return certify_pass(w->ctx, w->sink, to, &text);
 }
 
 /* --- failures ---------------------------------------------------------------------------------------------------- */
@@ -219,7 +219,7 @@ static bool next_row(work *w, iso_status *status)
     if (!to)
         *status = iso_context_no_memory(w->ctx, "a row");
     else if (certify_write_row(&w->ball, clock, w->p->backend, y, shown(w), w->p->options.digits, to))
-        *status = certify_give(w->ctx, w->sink, to, &text);
+        *status = certify_pass(w->ctx, w->sink, to, &text);
     else
         fclose(to), free(text), *status = too_wide(w);
     w->result->rows += *status == ISO_OK;
