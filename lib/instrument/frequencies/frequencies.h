@@ -5,8 +5,8 @@
  *     status = iso_frequencies_find(ctx, &scene, &o, &f);      f.angle[0].frequency[ISO_CLOCK_T], f.rotation
  *
  * A motion on a torus has two angles that grow uniformly in each of the clocks t, tau and s. Where there is a closed
- * solution (exact/exact.h), it gives their frequencies and actions. Elsewhere the frequencies are estimated:
- * - n(t) is computed over many turns, and its lines are found (spectrum.h).
+ * solution (exact/exact.h), it has their frequencies and actions. Elsewhere the frequencies are estimated:
+ * - n(t) is computed over many turns, and its lines are found (spectrum.c).
  * - One frequency is the strongest line of the two components of n that turn about an axis. The other is the
  *   strongest line of the third component that is no multiple of the first.
  * - Two such frequencies are determined only up to integer combinations. Where the problem separates and the motion
@@ -23,7 +23,6 @@
 #include "base/field.h"
 #include "exact/exact.h"
 #include "instrument/frequencies/momentum.h"
-#include "instrument/frequencies/spectrum.h"
 #include "orbit/orbit.h"
 #include "study/study.h"
 #include "study/verdict.h"
@@ -63,6 +62,14 @@ typedef struct iso_resonance {
     double beat[ISO_CLOCKS]; /* the time in which p angle[0] - q angle[1] turns once; infinite: never       */
     bool met;                /* the gap is rounding (an estimate: within its error)                         */
 } iso_resonance;
+
+enum { ISO_MAX_LINES = 24 };
+
+/* A line of a signal: a exp(i (frequency (t - t0) + phase)), a = amplitude > 0, t0 the time of the first sample. */
+typedef struct iso_spectral_line {
+    double frequency; /* radians per unit of time, of either sign, |frequency| <= pi/step */
+    double amplitude, phase;
+} iso_spectral_line;
 
 /* A line of n(t), nu = m angle[0].frequency + n angle[1].frequency where `known`. */
 typedef struct iso_identified_line {
