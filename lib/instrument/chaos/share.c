@@ -22,26 +22,18 @@
 
 #include "instrument/chaos/chaos_impl.h"
 
-/* v n^2; 0 if all copies agree. *copies: those with a start. */
-static double scatter(const size_t count[], const size_t found[], double share, int *copies)
-{
-    double square = 0;
-    *copies = 0;
-    for (int r = 0; r < ISO_SHIFTS; r++) {
-        const double rest = (double)found[r] - share * (double)count[r];
-        *copies += count[r] > 0;
-        square += rest * rest;
-    }
-    return *copies > 1 ? square * *copies / (*copies - 1) : 0;
-}
-
 void iso_share_interval(const size_t count[ISO_SHIFTS], const size_t found[ISO_SHIFTS], double *low, double *high)
 {
     static const double OUTSIDE = 0.025, AGREE = 1e-9; /* AGREE: less than any scatter of whole numbers is */
-    double n = 0, f = 0;
-    int copies;
-    for (int r = 0; r < ISO_SHIFTS; r++) n += (double)count[r], f += (double)found[r];
-    const double p = f / n, square = scatter(count, found, p, &copies);
+    double n = 0, f = 0, square = 0;                   /* square: v n^2, 0 if all copies agree */
+    int copies = 0;                                    /* those with a start */
+    for (int r = 0; r < ISO_SHIFTS; r++) n += (double)count[r], f += (double)found[r], copies += count[r] > 0;
+    const double p = f / n;
+    for (int r = 0; r < ISO_SHIFTS && copies > 1; r++) {
+        const double rest = (double)found[r] - p * (double)count[r];
+        square += rest * rest;
+    }
+    if (copies > 1) square = square * copies / (copies - 1);
     double middle = p, half;
     if (square > AGREE) {
         const double t = gsl_cdf_tdist_Qinv(OUTSIDE, copies - 1), q = t * t * square / (n * n * p * (1 - p));
