@@ -1,4 +1,4 @@
-/* section_print.c - what section --area tells people (study/study.h). */
+/* section_print.c - the text of section (study/study.h). */
 #include <string.h>
 
 #include "instrument/section/section_impl.h"
@@ -33,8 +33,17 @@ static void print_areas(FILE *to, const iso_section_areas *f)
     }
 }
 
-static void print_both(FILE *to, const iso_section_result *r)
+void iso_section_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
 {
+    const iso_section_result *r = result->found;
+    (void)scene;
+    if (((const iso_section_request *)options)->area) {
+        print_areas(to, result->found);
+        return;
+    }
+    fprintf(to, "%zu orbit%s, %zu crossings written\n", r->orbits, r->orbits == 1 ? "" : "s", r->rows);
+    if (r->nature.global) fprintf(to, "%s\n", r->nature.words);
+    if (r->models != ISO_SHOW_BOTH) return;
     if (r->crossings[ISO_BALL] == r->crossings[ISO_POINT] && r->unequal == 0)
         fprintf(to, "ball and point, each by itself: %zu crossings both\n", r->crossings[ISO_BALL]);
     else
@@ -49,17 +58,4 @@ static void print_both(FILE *to, const iso_section_result *r)
                 "%zu of %zu orbits part (distance above %g): their rounding errors grow, as on chaotic orbits; the "
                 "first is orbit %zu, at crossing %zu\n",
                 r->parted, r->orbits, ISO_SECTION_PARTED, r->parted_orbit, r->parted_crossing);
-}
-
-void iso_section_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
-{
-    const iso_section_result *r = result->found;
-    (void)scene;
-    if (((const iso_section_request *)options)->area) {
-        print_areas(to, result->found);
-        return;
-    }
-    fprintf(to, "%zu orbit%s, %zu crossings written\n", r->orbits, r->orbits == 1 ? "" : "s", r->rows);
-    if (r->nature.global) fprintf(to, "%s\n", r->nature.words);
-    if (r->models == ISO_SHOW_BOTH) print_both(to, r);
 }
