@@ -102,6 +102,9 @@ static void count_shares(const iso_chaos_walk *w)
     s->share = s->count > 0 ? (double)s->chaotic / (double)s->count : NAN;
     iso_share_interval(count, chaotic, &s->low, &unused);
     iso_share_interval(count, possible, &unused, &s->high);
+    s->half_interval = (s->high - s->low) / 2;
+    s->regular_share = (double)s->regular / (double)s->count;
+    s->undecided_share = (double)s->undecided / (double)s->count;
 }
 
 /* All that comes before the first turn. *w is set in each case; w->out is NULL if there is no memory. */

@@ -27,7 +27,7 @@ typedef struct iso_chaos_walk {
 iso_status iso_chaos_follow(iso_chaos_walk *w);
 
 /* Follows the own orbits of free scenes together, in the lanes of the same vectors. They have the same options, the
- * same models, and no trace. The numbers are those that iso_chaos_follow gives, to the bit. Errors: ISO_NO_MEMORY,
+ * same models, and no trace. The numbers are those of iso_chaos_follow, to the bit. Errors: ISO_NO_MEMORY,
  * ISO_STOPPED, those of iso_crossings_create; an orbit that fails says so in its own result. */
 iso_status iso_chaos_follow_each(size_t count, iso_chaos_walk *const walk[]);
 
@@ -35,7 +35,7 @@ iso_status iso_chaos_follow_each(size_t count, iso_chaos_walk *const walk[]);
 iso_status iso_chaos_check_own(const iso_chaos_walk *w);
 
 /* The own orbits of many scenes, followed together: as fast as the starts of one scene. options: no starts, no axis.
- * scene[i] may be NULL. chaos[i], status[i]: what iso_chaos_run gives for scene i, to the bit, but without a trace.
+ * scene[i] may be NULL. chaos[i], status[i]: those of iso_chaos_run for scene i, to the bit, but without a trace.
  * After a failure of scene i, chaos[i]->words says why (chaos[i] may be NULL). The caller frees each chaos[i].
  * Errors of the call: ISO_NO_MEMORY, ISO_STOPPED, and those of iso_crossings_create: then every chaos[i] is NULL. */
 iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *const scene[],

@@ -54,7 +54,6 @@ static void print_models(FILE *to, const iso_chaos *c)
 
 static void print_share(FILE *to, const iso_chaos_fraction *s, bool integrable)
 {
-    const double count = (double)s->count;
     fprintf(to, "\n%zu starts spread evenly over the section, by its area dL dl, with a tolerance of %g:\n", s->asked,
             s->tolerance);
     if (s->count < s->asked) {
@@ -67,8 +66,7 @@ static void print_share(FILE *to, const iso_chaos_fraction *s, bool integrable)
             "  chaotic    %8.4f   (%zu); 95 %% interval %.4f to %.4f\n"
             "  regular    %8.4f   (%zu)\n"
             "  undecided  %8.4f   (%zu)\n",
-            s->share, s->chaotic, s->low, s->high, (double)s->regular / count, s->regular,
-            (double)s->undecided / count, s->undecided);
+            s->share, s->chaotic, s->low, s->high, s->regular_share, s->regular, s->undecided_share, s->undecided);
     if (s->undecided > 0 && integrable)
         fputs("  undecided ones are not chaotic: the integral excludes it\n", to);
     else if (s->undecided > 0)
@@ -76,7 +74,7 @@ static void print_share(FILE *to, const iso_chaos_fraction *s, bool integrable)
             to,
             "  undecided ones count as not chaotic in the share and at the low end of the interval, as chaotic at\n"
             "  its high end; the middle of what is possible is %.4f\n",
-            ((double)s->chaotic + (double)s->undecided / 2) / count);
+            ((double)s->chaotic + (double)s->undecided / 2) / (double)s->count);
     if (s->checked > 0 && s->disagree == 0)
         fprintf(to, "  ball and point both decided %zu of them, and never disagree\n", s->checked);
     else if (s->disagree > 0)

@@ -60,36 +60,17 @@ const iso_field iso_chaos_orbit_fields[] = {
 
 /* --- the shares ------------------------------------------------------------------------------------------------- */
 
-static double half_interval(const void *row)
-{
-    const iso_chaos_fraction *s = row;
-    return (s->high - s->low) / 2;
-}
-
-/* If none was followed, every part of it is NaN. */
-static double regular_share(const void *row)
-{
-    const iso_chaos_fraction *s = row;
-    return (double)s->regular / (double)s->count;
-}
-
-static double undecided_share(const void *row)
-{
-    const iso_chaos_fraction *s = row;
-    return (double)s->undecided / (double)s->count;
-}
-
 #define FIELD(key, member, ...) ISO_MEMBER(iso_chaos_fraction, key, member, __VA_ARGS__)
 
 const iso_field iso_chaos_fraction_fields[] = {
     FIELD("chaotic", share, "",
           "the chaotic share of the section, by its area; undecided orbits count as not chaotic", .column = "share"),
-    ISO_NUMBER("error", half_interval, "", "half the interval of 95 %, in which undecided orbits count both ways",
-               .how = ISO_IN_TREE),
+    FIELD("error", half_interval, "", "half the interval of 95 %, in which undecided orbits count both ways",
+          .how = ISO_IN_TREE),
     FIELD("low", low, "", "the low end of the interval: undecided orbits are not chaotic", .column = "share_low"),
     FIELD("high", high, "", "the high end: undecided orbits are chaotic", .column = "share_high"),
-    ISO_NUMBER("regular", regular_share, "", "the regular share"),
-    ISO_NUMBER("undecided", undecided_share, "", "the share that is undecided"),
+    FIELD("regular", regular_share, "", "the regular share"),
+    FIELD("undecided", undecided_share, "", "the share that is undecided"),
     FIELD("starts", asked, "", "orbits that were asked for", .how = ISO_IN_TREE),
     FIELD("followed", count, "", "orbits that were followed", .how = ISO_IN_TREE),
     FIELD("chaotic_starts", chaotic, "", "how many of them are chaotic", .how = ISO_IN_TREE),

@@ -4,7 +4,7 @@
  * The starts are ISO_SHIFTS copies of the sequence of map/section.h, each with a random shift of its own. Start i is
  * the next point of copy i modulo ISO_SHIFTS. So start i does not depend on the number of starts, and the first N
  * starts are spread evenly for every N. The points of one copy depend on each other, but the copies are independent:
- * the scatter of their counts tells the error, whatever the shape of the set is.
+ * the scatter of their counts shows the error, whatever the shape of the set is.
  *
  * The interval. Let copy r have n_r points, f_r of them in the set; n and f are the sums, p = f/n. Then
  * v = R/(R - 1) sum (f_r - p n_r)^2/n^2 estimates the variance of p, and D = v n/(p (1 - p)) compares it with that of

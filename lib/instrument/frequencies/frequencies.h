@@ -47,7 +47,7 @@ static inline iso_frequencies_options iso_frequencies_defaults(void)
 
 /* One of the two angles. Everything in the caller's units; NaN: not known. */
 typedef struct iso_angle {
-    char what[96];                /* in words: what turns or swings                                     */
+    char what[96];                /* what turns or swings                                               */
     double frequency[ISO_CLOCKS]; /* > 0, radians per unit of the clock                                 */
     double period[ISO_CLOCKS];    /* 2 pi/frequency                                                     */
     double error[ISO_CLOCKS];     /* of the frequency: estimates only                                   */
@@ -104,7 +104,7 @@ typedef struct iso_frequencies {
     bool unresolved;              /* estimated although there is a closed solution, which needs too many terms   */
     char why[256];                /* estimated: why                                                              */
     iso_exact_kind kind;          /* of the closed solution                                                      */
-    char motion[160];             /* in words                                                                    */
+    char motion[160];             /* as text                                                                     */
     double h, eps;                /* energy, coupling (NaN without a twin) ...                           */
     double H;                     /* ... and level of the point                                          */
     const iso_integral *integral; /* of the ball, beyond h: it is integrable; NULL: none is known        */
@@ -137,7 +137,7 @@ iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene, const 
 iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
                                     iso_frequencies *frequencies);
 
-/* What it tells people, and the lines of its table (frequencies_print.c). */
+/* Its text (frequencies_print.c). */
 void iso_frequencies_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 
 #endif

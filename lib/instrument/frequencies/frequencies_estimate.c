@@ -213,27 +213,20 @@ static iso_status find_drift(estimator *e, const series *s, const basis *b, size
     return ISO_OK;
 }
 
-/* How many turns the slowest small combination of the frequencies makes in half of the orbit. */
-static double slowest_beat(const basis *b, double length)
-{
-    double least = b->angles == 1 ? fabs(b->frequency[0]) : INFINITY;
-    for (int m = -3; m <= 3; m++)
-        for (int n = 0; n <= 3; n++)
-            if (b->angles == 2 && (m != 0 || n != 0))
-                least = fmin(least, fabs(m * b->frequency[0] + n * b->frequency[1]));
-    return least * length / 2 / (2 * ISO_PI);
-}
-
 /* The longer the orbit, the smaller the drift of a regular motion's frequencies, once the orbit has a dozen beats.
  * The frequencies of a chaotic motion go on changing. An integrable problem has no chaotic motion. */
 static iso_verdict verdict_of(const iso_estimate *e, const basis *b, bool integrable)
 {
     static const double SAME = 1e-8, WANDERING = 1e-6, BEATS = 12;
+    double slowest = b->angles == 1 ? fabs(b->frequency[0]) : INFINITY; /* of the small combinations of both */
     if (b->angles > 0 && e->drift <= SAME) return ISO_REGULAR;
     if (integrable) return ISO_INTEGRABLE;
-    if (b->angles == 0) return ISO_UNDECIDED;
-    const bool wanders = e->drift >= WANDERING && e->drift > e->drift_before / 8;
-    return wanders && slowest_beat(b, e->length) > BEATS ? ISO_CHAOTIC : ISO_UNDECIDED;
+    for (int m = -3; m <= 3; m++)
+        for (int n = 0; n <= 3; n++)
+            if (b->angles == 2 && (m != 0 || n != 0))
+                slowest = fmin(slowest, fabs(m * b->frequency[0] + n * b->frequency[1]));
+    const bool wanders = b->angles > 0 && e->drift >= WANDERING && e->drift > e->drift_before / 8;
+    return wanders && slowest * e->length / 2 / (2 * ISO_PI) > BEATS ? ISO_CHAOTIC : ISO_UNDECIDED;
 }
 
 /* The study "chaos" is sharper than the drift of frequencies. The drift decides only where chaos does not, or cannot be

@@ -7,7 +7,7 @@
  * First the largest bin of a discrete Fourier transform is taken, then Newton's method refines it. Then the
  * amplitudes of all lines found so far are fitted anew (they are not orthogonal) and taken out of x. Two lines at a
  * distance d disturb each other like (1/dT)^(2p+1). So the frequencies are exact nearly to rounding if each pair of
- * lines beats a few dozen times in the signal; a Fourier transform alone gives them to 1/T.
+ * lines beats a few dozen times in the signal; a Fourier transform alone finds them to 1/T.
  */
 #include "instrument/frequencies/frequencies_impl.h"
 

@@ -76,7 +76,7 @@ static iso_status work(iso_periodic_work *w)
     iso_periodic *out = w->out;
     if (out->count > 0) qsort(out->orbit, out->count, sizeof *out->orbit, by_period);
     for (size_t i = 0; i < out->count; i++) out->orbit[i].number = i + 1, out->orbit[i].polished = w->options.polish;
-    for (int a = 0; a < 3; a++) out->rotation[a].polished = w->options.polish;
+    for (int a = 0; a < 3; a++) out->rotation[a].polished = w->options.polish && !out->rotation[a].oscillates;
     return status;
 }
 

@@ -71,7 +71,7 @@ typedef struct iso_section_result {
     size_t orbits, rows; /* orbits asked for; rows that the sink has taken                                       */
     size_t crossings[2]; /* found by the ball, by the point                                                      */
     size_t failed;       /* orbits that have fewer crossings than asked for                                      */
-    iso_status failure;  /* of the first of them, with its words                                                 */
+    iso_status failure;  /* of the first of them, with its text                                                 */
     char words[512];
     /* With both models. The distance of two crossings is the larger one of |dl| and |dx|. On an event it is |dt|,
      * divided by the mean time between crossings. */

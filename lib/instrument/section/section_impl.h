@@ -90,7 +90,7 @@ typedef struct iso_section_area {
 } iso_section_area;
 
 typedef struct iso_section_areas {
-    bool returns; /* det D is told at the returns; else at equal steps of a clock, about a turn each */
+    bool returns; /* det D is computed at the returns; else at equal steps of a clock, about a turn each */
     size_t count;
     iso_section_area *orbit;
     char words[512]; /* of the first orbit that failed */
