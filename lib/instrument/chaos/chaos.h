@@ -62,12 +62,7 @@ typedef struct iso_chaos_options {
 /* 3000 turns of the scene's own orbit. */
 static inline iso_chaos_options iso_chaos_defaults(void)
 {
-    iso_chaos_options o = {0};
-    o.turns = 3000;
-    o.models = ISO_SHOW_START;
-    o.axis = ISO_AXIS_AUTO;
-    o.tolerance = NAN;
-    return o;
+    return (iso_chaos_options){.turns = 3000, .models = ISO_SHOW_START, .axis = ISO_AXIS_AUTO, .tolerance = NAN};
 }
 
 /* One orbit. result[ISO_BALL], result[ISO_POINT]: what each model has found. A model that was not integrated, or that

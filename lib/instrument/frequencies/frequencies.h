@@ -40,9 +40,7 @@ typedef struct iso_frequencies_options {
 /* All NaN: 1000 turns (fewer where |k| < 1/4), up to 16 times as many while the motion is not found regular. */
 static inline iso_frequencies_options iso_frequencies_defaults(void)
 {
-    iso_frequencies_options o = {0};
-    o.turns = o.end = o.samples = NAN;
-    return o;
+    return (iso_frequencies_options){.turns = NAN, .end = NAN, .samples = NAN};
 }
 
 /* One of the two angles. Everything in the caller's units; NaN: not known. */

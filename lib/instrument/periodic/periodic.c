@@ -90,7 +90,6 @@ iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_
     w.out = calloc(1, sizeof *w.out);
     if (!w.out) return iso_context_no_memory(ctx, "periodic orbits");
     iso_status status = work(&w);
-    free(w.folded);
     if (status != ISO_OK && status != ISO_STOPPED) iso_periodic_free(w.out), w.out = NULL;
     *found = w.out;
     return status;

@@ -137,8 +137,6 @@ typedef struct iso_periodic_work {
     iso_motion_level on;           /* of the scene */
     double unit_clock[ISO_CLOCKS]; /* the scene's clocks of one own clock at eps = 1 */
     iso_periodic *out;
-    struct iso_periodic_folded *folded; /* points of the orbits that are found, for duplicates */
-    size_t folded_count;
 } iso_periodic_work;
 
 /* A place that may lie on an orbit. */
@@ -149,20 +147,11 @@ typedef struct iso_periodic_candidate {
     double l, x; /* its point of the section       */
 } iso_periodic_candidate;
 
-/* All copies of a point, and those by the reversors, become one point of [0, pi/2] x [0, 1]. */
-static inline void iso_periodic_fold(const double z[2], double folded[2])
-{
-    folded[0] = fabs(remainder(z[0], ISO_PI));
-    folded[1] = fabs(z[1]);
-}
-
-/* How far apart two points are, copies counting as one. */
+/* How far apart two points are. All copies of a point, and those by the reversors, count as one: each is the same point
+ * of [0, pi/2] x [0, 1]. */
 static inline double iso_periodic_apart(const double a[2], const double b[2])
 {
-    double p[2], q[2];
-    iso_periodic_fold(a, p);
-    iso_periodic_fold(b, q);
-    return fmax(fabs(p[0] - q[0]), fabs(p[1] - q[1]));
+    return fmax(fabs(fabs(remainder(a[0], ISO_PI)) - fabs(remainder(b[0], ISO_PI))), fabs(fabs(a[1]) - fabs(b[1])));
 }
 
 /* f's l modulo a turn into (-pi, pi]. */

@@ -221,11 +221,6 @@ static answer find_orbit(const iso_periodic_map *map, const iso_return_build *co
 
 #define SAME 1e-7 /* points of the section that are closer are the same */
 
-struct iso_periodic_folded {
-    int period;
-    double z[2]; /* a point, folded */
-};
-
 double iso_periodic_angle(double l)
 {
     l = remainder(l, 2 * ISO_PI);
@@ -241,12 +236,12 @@ static bool meet(const double a[2], const double b[2])
 /* Whether the point belongs to an orbit in the list whose period divides this one, or to a rotation. */
 static bool is_known(const iso_periodic_work *w, int period, double l, double x)
 {
-    double z[2];
-    iso_periodic_fold((const double[2]){l, x}, z);
-    if (z[1] < SAME && fmin(z[0], ISO_PI / 2 - z[0]) < SAME) return true;
-    for (size_t i = 0; i < w->folded_count; i++) {
-        const struct iso_periodic_folded *f = &w->folded[i];
-        if (period % f->period == 0 && fabs(f->z[0] - z[0]) < SAME && fabs(f->z[1] - z[1]) < SAME) return true;
+    const double z[2] = {l, x}, place = fabs(remainder(l, ISO_PI));
+    if (fabs(x) < SAME && fmin(place, ISO_PI / 2 - place) < SAME) return true;
+    for (size_t i = 0; i < w->out->count; i++) {
+        const iso_periodic_orbit *o = &w->out->orbit[i];
+        for (int n = 0; period % o->period == 0 && n < 2 * o->period; n++)
+            if (iso_periodic_apart(o->half[n], z) < SAME) return true;
     }
     return false;
 }
@@ -334,13 +329,7 @@ static iso_status add_orbit(iso_periodic_work *w, const iso_periodic_orbit *solv
     o.half = malloc(size);
     if (!o.half) return iso_context_no_memory(w->ctx, "an orbit");
     memcpy(o.half, path, size);
-    iso_status status = ISO_OK;
-    for (int i = 0; i < 2 * o.period && status == ISO_OK; i++) {
-        struct iso_periodic_folded f = {.period = o.period};
-        iso_periodic_fold(path[i], f.z);
-        status = iso_periodic_append(w->ctx, &w->folded, &w->folded_count, &f, sizeof f);
-    }
-    if (status == ISO_OK) status = iso_periodic_append(w->ctx, &w->out->orbit, &w->out->count, &o, sizeof o);
+    const iso_status status = iso_periodic_append(w->ctx, &w->out->orbit, &w->out->count, &o, sizeof o);
     if (status != ISO_OK) free(o.half);
     return status;
 }
