@@ -57,7 +57,7 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     it->options = o;
     const bool room = iso_inside_create(&it->model.problem, &it->inside);
     iso_status status = room ? method->create(it) : iso_context_no_memory(ctx, "an integrator");
-    if (status == ISO_OK && !method->dense) status = iso_dense_create(it);
+    if (status == ISO_OK && !it->method->dense) status = iso_dense_create(it);
     if (status != ISO_OK) return iso_integrator_free(it), status;
     *integrator = it;
     return ISO_OK;

@@ -136,36 +136,33 @@ __extension__ typedef _Float128 number_of_128_bits;
 #include "method/taylor/return_impl.h"
 #endif
 
+#define LANE_CODE(name)                                                                                              \
+    {                                                                                                                \
+        name, LANES, IS_TANGENT ? ISO_LANE_DEVIATIONS : 0, sizeof(saved_lane), runs_here, solve                      \
+    }
+
 static bool runs_here(void)
 {
 #if LANES == 8
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("fma");
 #elif LANES == 4
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    return iso_taylor_has_avx2();
 #else
     return true;
 #endif
 }
-
-#define LANE_CODE(name)                                                                                              \
-    {                                                                                                                \
-        name, LANES, IS_TANGENT ? ISO_LANE_DEVIATIONS : 0, sizeof(saved_lane), runs_here, solve                      \
-    }
 #endif
 
 #if IS(PLAIN)
-const iso_taylor_build iso_taylor_plain = {create, start, step, dense, save, recall};
+const iso_method iso_taylor_plain = {ISO_TAYLOR_ROW("taylor", ""), SINGLE};
 #elif IS(AVX2)
-const iso_taylor_build iso_taylor_avx2 = {create, start, step, dense, save, recall};
-
-bool iso_taylor_has_avx2(void)
-{
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-}
+const iso_method iso_taylor_avx2 = {ISO_TAYLOR_ROW("taylor", ""), SINGLE};
 #elif IS(EXTENDED)
-const iso_taylor_build iso_taylor_extended = {create, start, step, dense, save, recall};
+const iso_method iso_method_taylor_extended = {
+    ISO_TAYLOR_ROW("taylor_extended", "the same in long double, a reference for the others"), SINGLE, .digits = 19};
 #elif IS(QUAD)
-const iso_taylor_build iso_taylor_quad = {create, start, step, dense, save, recall};
+const iso_method iso_method_taylor_quad = {ISO_TAYLOR_ROW("taylor_quad", "the same in numbers of 128 bits, slow"),
+                                           SINGLE, .digits = 34, .reference = true};
 #elif IS(LANES_PLAIN)
 const iso_lane_build iso_lanes_plain = LANE_CODE("plain");
 #elif IS(LANES_AVX2)
@@ -179,20 +176,15 @@ const iso_lane_build iso_tangent_avx2 = LANE_CODE("avx2");
 #elif IS(TANGENT_AVX512)
 const iso_lane_build iso_tangent_avx512 = LANE_CODE("avx512");
 #elif IS(TANGENT_EXTENDED)
-const iso_return_build iso_return_extended = {"extended", LDBL_EPSILON, go};
+const iso_return_build iso_return_extended = {LDBL_EPSILON, go};
 const iso_lane_build iso_tangent_extended = LANE_CODE("extended");
-#elif IS(TAIL_PLAIN)
-static bool runs_everywhere(void)
-{
-    return true;
-}
-
-const iso_tail_build iso_tail_plain = {runs_everywhere, create_tail, expand_tail};
-#elif IS(TAIL_AVX2)
-const iso_tail_build iso_tail_avx2 = {iso_taylor_has_avx2, create_tail, expand_tail};
-#else
-const iso_return_build iso_return_quad = {"quad", 0x1p-106, go};
+#elif IS(TANGENT_QUAD)
+const iso_return_build iso_return_quad = {0x1p-106, go};
 const iso_lane_build iso_tangent_quad = LANE_CODE("quad");
+#elif IS(TAIL_PLAIN)
+const iso_tail_build iso_tail_plain = {create_tail, expand_tail};
+#elif IS(TAIL_AVX2)
+const iso_tail_build iso_tail_avx2 = {create_tail, expand_tail};
 #endif
 
 #endif
