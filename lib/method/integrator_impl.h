@@ -106,7 +106,10 @@ iso_status iso_integrator_advance(iso_integrator *it);
 iso_status iso_integrator_reach(iso_integrator *it, int direction, double t);
 
 /* t minus the time of the step's left end: exact but for the last bit. */
-double iso_integrator_since(const iso_integrator *it, double t);
+static inline double iso_integrator_since(const iso_integrator *it, double t)
+{
+    return iso_instant_since(it->left, t);
+}
 
 /* The state at dt from the step's left end: an end of the step, or dense output. */
 iso_status iso_integrator_within(iso_integrator *it, double dt, double y[]);

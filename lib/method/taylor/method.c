@@ -15,7 +15,7 @@
 #include "method/taylor/code_impl.h"
 #include "model/model_impl.h"
 
-static iso_status create(iso_integrator *it)
+iso_status iso_taylor_create(iso_integrator *it)
 {
     it->method = &iso_taylor_plain;
 #ifdef ISO_TAYLOR_X86
@@ -34,12 +34,8 @@ static iso_status create(iso_integrator *it)
  *
  * At 1e-4 and looser, splittings are up to 1.5 times cheaper, but do not keep to their tolerance. Series do not suit
  * stiff models, nor powers of q in (24) that span many decades. */
-static iso_suits suits(const iso_model *m)
+iso_suits iso_taylor_suits(const iso_model *m)
 {
     const bool steep = m->system == &iso_system_point && iso_params_steep(&m->problem.p);
     return steep || iso_effects_stiffness(&m->problem) > ISO_STIFF ? ISO_IF_NEED_BE : ISO_BEST;
 }
-
-const iso_method iso_method_taylor = {
-    ISO_TAYLOR_ROW("taylor", "Taylor series by recurrences, order 6-28 from the tolerance"), .suits = suits,
-    .create = create};

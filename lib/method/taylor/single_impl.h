@@ -83,5 +83,4 @@ static void release(iso_integrator *it)
     free(it->data);
 }
 
-#define SINGLE                                                                                                       \
-    .create = create, .start = start, .step = step, .dense = dense, .save = save, .recall = recall, .free = release
+#define SINGLE .start = start, .step = step, .dense = dense, .save = save, .recall = recall, .free = release
