@@ -33,40 +33,43 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
  * Clearing all 16 kB would cost time in batches. */
 void iso_orbit_clear(iso_orbit *o);
 
-/* All of an orbit but the integrator: o->ctx and o->options say what is asked for; gives the start of its model.
- * Errors: those of iso_orbit_create. */
-iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_MAX_STATE]);
+/* All of an orbit but the integrator; returns the start of its model in y. Errors: those of iso_orbit_create. */
+iso_status iso_orbit_prepare(iso_orbit *o, iso_context *ctx, const iso_orbit_options *options, const iso_params *p,
+                             const iso_start *start, double y[ISO_MAX_STATE]);
 
 /* The sample at `time` (in the caller's units) where the model's state is y. Errors: ISO_NUMERICAL where a number
  * does not fit a double, in own units or in the caller's. */
 iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y[], iso_sample *s);
 
 /* Fails with ISO_NUMERICAL: what leaves the range of doubles for this k, and what to do about it. */
-iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out);
+iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *advice);
 
 /* Whether it is better to integrate the point, which needs fewer products than the ball. For |k| < 1/8 it is not:
  * powers q^(1/k) grow large, and the map between the models is steep. */
 bool iso_point_is_better(const iso_params *p);
 
-/* How an orbit of a batch, or of crossings, is prepared. One way after the other is tried:
+/* How an orbit of a batch, or of crossings, is prepared: one attempt after the other, until one succeeds.
  *
- *     iso_way way = iso_way_first(...);
+ *     iso_attempt attempt = iso_attempt_first(...);
  *     do
- *         status = ...;   prepares the orbit by way.backend, with all clocks if way.clocks
- *     while (iso_way_next(&way, status));
+ *         status = ...;   prepares the orbit by attempt.backend, with all clocks if attempt.clocks
+ *     while (iso_attempt_next(&attempt, status));
  */
-typedef struct iso_way {
-    iso_backend backend, last; /* now; of the last way                        */
-    bool clocks, all_clocks;   /* now; of the first way with each backend     */
-} iso_way;
+typedef struct iso_attempt {
+    iso_backend backend, last; /* now; of the last attempt                    */
+    bool clocks, all_clocks;   /* now; of the first attempt with each backend */
+} iso_attempt;
 
 /* If `asked` is ISO_BACKEND_AUTO and the point is better, the point comes first. `last` comes last. Each is tried
  * with all clocks if all_clocks. */
-iso_way iso_way_first(const iso_params *p, iso_backend asked, iso_backend last, bool all_clocks);
+iso_attempt iso_attempt_first(const iso_params *p, iso_backend asked, iso_backend last, bool all_clocks);
 
-/* Goes to the next way, if one is left after this status: without the other clocks if their numbers do not fit a
+/* Goes to the next attempt, if one is left after this status: without the other clocks if their numbers do not fit a
  * double (ISO_NUMERICAL), else by the last backend. */
-bool iso_way_next(iso_way *way, iso_status status);
+bool iso_attempt_next(iso_attempt *attempt, iso_status status);
+
+/* The most that the orbit's clock gains while t goes on by 1, in own units. */
+double iso_orbit_fastest(const iso_orbit *o);
 
 /* From now on the orbit may take this many steps, counted from its start; 0: any number. */
 void iso_orbit_allow_steps(iso_orbit *o, long max_steps);
@@ -77,9 +80,8 @@ extern const iso_method iso_method_exact;
 /* NaN in every column. */
 void iso_sample_blank(iso_sample *s);
 
-/* What effects add to a sample of the ball's model (errors: as iso_orbit_make_sample); back from a sample to the
- * state of the whole model, own units. */
-iso_status iso_orbit_sample_effects(const iso_orbit *o, const double y[], iso_sample *sample);
+/* (M, gamma) where the model's state is y; and the state of the whole model where a sample is. Own units. */
+void iso_orbit_as_point(const iso_orbit *o, const double y[], double point[ISO_STATE]);
 void iso_orbit_state_of(const iso_orbit *o, const iso_system *system, const iso_sample *sample, double y[]);
 
 /* The ball's integral beyond the energy and the constraints; NULL: none is known. */
