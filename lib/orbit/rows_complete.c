@@ -84,27 +84,25 @@ static void fill(completion *c, size_t i, const iso_sample *now)
             iso_record_row(c->out, i)[j] = iso_sample_column(&whole, c->column[j]);
 }
 
-static iso_status first_row(completion *c, iso_rows *rows)
+/* Row i, from the row before; the first from the start of its own orbit. */
+static iso_status add_row(completion *c, iso_rows *rows, size_t i, iso_row_gap *gap)
 {
-    const double *first = iso_record_const_row(c->in, 0);
-    iso_sample sample;
-    iso_orbit *orbit = NULL;
-    iso_status status = open_at(c, first, &orbit);
-    if (status == ISO_OK) status = iso_orbit_at(orbit, 0, &sample);
-    iso_orbit_free(orbit);
-    if (status == ISO_OK) fill(c, 0, &sample);
-    return status == ISO_OK ? iso_rows_begin(rows, NULL, first, 0) : status;
-}
-
-static iso_status next_row(completion *c, iso_rows *rows, size_t i, double bound, iso_row_miss *worst)
-{
-    iso_row_gap gap;
-    iso_rows_take(rows, iso_record_const_row(c->in, i));
-    ISO_TRY(iso_rows_integrate(rows, &gap));
-    iso_rows_keep(rows);
-    gap.reached.clock[c->clock] = gap.step;
-    fill(c, i, &gap.reached);
-    if (!(gap.miss <= bound) && !(gap.miss <= worst->by)) *worst = (iso_row_miss){i, gap.miss};
+    const double *row = iso_record_const_row(c->in, i);
+    ISO_TRY(copy_row(c, i));
+    if (i > 0) {
+        iso_rows_take(rows, row);
+        ISO_TRY(iso_rows_integrate(rows, gap));
+        iso_rows_keep(rows);
+        gap->reached.clock[c->clock] = gap->step;
+    } else {
+        iso_orbit *orbit = NULL;
+        iso_status status = open_at(c, row, &orbit);
+        if (status == ISO_OK) status = iso_orbit_at(orbit, 0, &gap->reached);
+        iso_orbit_free(orbit);
+        if (status == ISO_OK) status = iso_rows_begin(rows, NULL, row, 0);
+        if (status != ISO_OK) return status;
+    }
+    fill(c, i, &gap->reached);
     return ISO_OK;
 }
 
@@ -113,6 +111,7 @@ static iso_status complete(completion *c, iso_row_miss *worst)
     int columns[ISO_TRAJECTORY_COLUMNS];
     const double bound = iso_rows_largest_miss(c->ctx, c->in, iso_record_row_tolerance(c->in));
     iso_status status = ISO_OK;
+    iso_row_gap gap = {.miss = 0};
     iso_rows rows = {.ctx = c->ctx,
                      .model = c->model,
                      .clock = c->clock,
@@ -122,9 +121,10 @@ static iso_status complete(completion *c, iso_row_miss *worst)
                      .data = c};
     iso_record_find_columns(c->in, columns);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(c->in); i++) {
-        status = copy_row(c, i);
-        if (status == ISO_OK) status = i == 0 ? first_row(c, &rows) : next_row(c, &rows, i, bound, worst);
+        status = add_row(c, &rows, i, &gap);
         if (status != ISO_OK) iso_context_fail(c->ctx, status, "", "row %zu: %s", i + 1, iso_context_message(c->ctx));
+        if (status == ISO_OK && !(gap.miss <= bound) && !(gap.miss <= worst->by))
+            *worst = (iso_row_miss){i, gap.miss};
     }
     iso_rows_free(&rows);
     return status;
