@@ -42,7 +42,6 @@ typedef struct iso_crossings_options {
     iso_clock clock; /* of ISO_SECTION_CLOCK                                                                 */
     bool deviations;
     double tolerance;
-    long max_steps;   /* between two crossings; 0: no bound                                                   */
     iso_models shown; /* what samples show                                                                    */
     int threads;
     const char *vectors;

@@ -109,9 +109,7 @@ static iso_status find_next(const iso_crossings *c, const iso_crossing_orbit *o,
     double seen[3][2] = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
     const watch w = {c, o, seen};
     const double last = o->time + ISO_MOST_BETWEEN * turn_of(o->alone);
-    const long most = c->options.max_steps;
     bool found;
-    if (most > 0) iso_orbit_allow_steps(o->alone, iso_orbit_statistics(o->alone).steps + most);
     if (c->options.kind == ISO_SECTION_CLOCK)
         return iso_orbit_at(o->alone, (double)(o->count + 1) * c->options.value, sample);
     ISO_TRY(iso_orbit_event(o->alone, beyond, &w, 1, o->time, last, &found, sample));

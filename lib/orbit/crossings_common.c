@@ -14,15 +14,6 @@
 
 /* --- the orbit -------------------------------------------------------------------------------------------------- */
 
-/* Whether the states of a model are needed: because it is integrated, because samples show it, or for the column. */
-static bool needs(const iso_crossings_options *o, iso_backend backend, iso_models model)
-{
-    const bool point = model == ISO_SHOW_POINT;
-    const bool of_point = o->column >= ISO_COLUMN_POINT && o->column < ISO_COLUMN_EFFECTS;
-    if ((int)backend == (int)model || o->shown == model || o->shown == ISO_SHOW_BOTH) return true;
-    return o->kind == ISO_SECTION_COLUMN && of_point == point;
-}
-
 iso_attempt iso_crossings_attempt(const iso_crossings *c, size_t i)
 {
     const iso_backend asked = c->options.backend, last = asked == ISO_BACKEND_AUTO ? ISO_BACKEND_BALL : asked;
@@ -44,9 +35,12 @@ iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, 
     how.clock = attempt.backend == ISO_BACKEND_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
     if (o->kind == ISO_SECTION_CLOCK) how.clock = o->clock;
     for (iso_clock k = 0; k < ISO_CLOCKS; k++) how.with_clock[k] = attempt.clocks;
-    how.shown = !needs(o, attempt.backend, ISO_SHOW_POINT)  ? ISO_SHOW_BALL
-                : !needs(o, attempt.backend, ISO_SHOW_BALL) ? ISO_SHOW_POINT
-                                                            : ISO_SHOW_BOTH;
+    /* the states of a model are needed because it is integrated, because samples show it, or for the column */
+    const bool of_point = o->column >= ISO_COLUMN_POINT && o->column < ISO_COLUMN_EFFECTS;
+    const iso_models of_column = of_point ? ISO_SHOW_POINT : ISO_SHOW_BALL;
+    how.shown = o->shown;
+    if (how.shown != (iso_models)attempt.backend || (o->kind == ISO_SECTION_COLUMN && how.shown != of_column))
+        how.shown = ISO_SHOW_BOTH;
     return how;
 }
 
@@ -196,17 +190,12 @@ void iso_crossings_hide(const iso_crossings *c, iso_sample *s)
 /* The start is made in own units, in which powers of q fit a double. */
 iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x)
 {
-    const iso_units *units = iso_orbit_units(orbit);
     const double eps = iso_orbit_coupling(orbit);
-    double point[ISO_STATE];
     iso_start start = {.model = model, .eps = isnormal(eps) ? eps : (double)NAN};
     const bool ball = model == ISO_BALL;
-    iso_section_point(iso_orbit_motion(orbit), axis, l, x, point);
-    if (ball)
-        iso_point_to_ball(&units->own, point, start.y);
-    else
-        copy(point, start.y, ISO_STATE);
-    scale(start.y, ball ? units->w : iso_unit(units, iso_system_point.fast_dimension));
+    iso_section_point(iso_orbit_motion(orbit), axis, l, x, start.y);
+    if (ball) iso_point_to_ball(&orbit->units.own, start.y, start.y);
+    scale(start.y, ball ? orbit->units.w : orbit->unit_M);
     return start;
 }
 

@@ -233,7 +233,7 @@ static bool pass(iso_pool_worker *w, const follower *f, size_t first, size_t cou
         taken[*waiting] = i;
         jobs[(*waiting)++] = job;
     }
-    const bool memory = iso_lanes_in_groups(w, f->code, o->tolerance, o->max_steps, jobs, *waiting);
+    const bool memory = iso_lanes_in_groups(w, f->code, o->tolerance, 0, jobs, *waiting);
     for (size_t j = 0; j < *waiting; j++) iso_crossings_keep(f->c, t, w->ctx, taken[j], finish(w, f, taken[j]));
     return memory;
 }

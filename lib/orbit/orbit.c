@@ -7,7 +7,9 @@
  *     orbit_common.c                   what an orbit is made of, and how it is prepared
  */
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
@@ -27,6 +29,20 @@ static iso_backend choose_backend(const iso_orbit_options *opt, const iso_effect
     return iso_effects_breaking(e) || iso_effects_ball_only(e) ? ISO_BACKEND_BALL : (iso_backend)start->model;
 }
 
+/* Makes an orbit empty, to be prepared: but not the texts of effects, and of formulas only what says how long they are.
+ * Clearing all 16 kB would cost time in batches. */
+static void clear(iso_orbit *o)
+{
+    iso_problem *f = &o->model.problem;
+    char *const behind_effects = (char *)(&o->effects + 1), *const behind = (char *)(f + 1);
+    memset(o, 0, offsetof(iso_orbit, effects) + offsetof(iso_effects, written));
+    memset(behind_effects, 0, (size_t)((char *)&f->effects - behind_effects));
+    memset(f->at, 0, sizeof f->at);
+    memset(&f->motion, 0, offsetof(iso_formula, late_line));
+    memset(&f->energy_formula, 0, offsetof(iso_formula, late_line));
+    memset(behind, 0, (size_t)((char *)(o + 1) - behind));
+}
+
 iso_status iso_orbit_prepare(iso_orbit *o, iso_context *ctx, const iso_orbit_options *options, const iso_params *p,
                              const iso_start *start, double y[ISO_MAX_STATE])
 {
@@ -34,7 +50,7 @@ iso_status iso_orbit_prepare(iso_orbit *o, iso_context *ctx, const iso_orbit_opt
     iso_model *model = &o->model;
     iso_problem *problem = &model->problem;
     double six[ISO_STATE], size;
-    iso_orbit_clear(o);
+    clear(o);
     o->ctx = ctx;
     *opt = *options;
     if (opt->effects) o->effects = *opt->effects;

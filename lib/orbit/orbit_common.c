@@ -1,7 +1,5 @@
 /* orbit_common.c - what every other file of an orbit needs: what an orbit is made of, and how it is prepared. */
 #include <math.h>
-#include <stddef.h>
-#include <string.h>
 
 #include "base/number_impl.h"
 #include "base/vec3_impl.h"
@@ -59,18 +57,6 @@ iso_point_motion iso_orbit_motion(const iso_orbit *o)
 }
 
 /* --- how it is prepared ----------------------------------------------------------------------------------------- */
-
-void iso_orbit_clear(iso_orbit *o)
-{
-    iso_problem *f = &o->model.problem;
-    char *const behind_effects = (char *)(&o->effects + 1), *const behind = (char *)(f + 1);
-    memset(o, 0, offsetof(iso_orbit, effects) + offsetof(iso_effects, written));
-    memset(behind_effects, 0, (size_t)((char *)&f->effects - behind_effects));
-    memset(f->at, 0, sizeof f->at);
-    memset(&f->motion, 0, offsetof(iso_formula, late_line));
-    memset(&f->energy_formula, 0, offsetof(iso_formula, late_line));
-    memset(behind, 0, (size_t)((char *)(o + 1) - behind));
-}
 
 bool iso_point_is_better(const iso_params *p)
 {

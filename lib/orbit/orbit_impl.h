@@ -29,10 +29,6 @@ iso_status iso_orbit_no_point(iso_context *ctx, const iso_effect *breaking);
  * iso_orbit_create. */
 iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE]);
 
-/* Makes an orbit empty, to be prepared: but not the texts of effects, and of formulas only what says how long they are.
- * Clearing all 16 kB would cost time in batches. */
-void iso_orbit_clear(iso_orbit *o);
-
 /* All of an orbit but the integrator; returns the start of its model in y. Errors: those of iso_orbit_create. */
 iso_status iso_orbit_prepare(iso_orbit *o, iso_context *ctx, const iso_orbit_options *options, const iso_params *p,
                              const iso_start *start, double y[ISO_MAX_STATE]);

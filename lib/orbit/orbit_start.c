@@ -30,21 +30,6 @@ static iso_status check_powers(const iso_orbit *o, const iso_start *start)
                                  point ? "start from a ball" : "ask for omega, n or gamma, and t, alone");
 }
 
-/* What the numbers of an orbit are measured with must fit a double, and not lose digits. */
-static iso_status check_units(const iso_orbit *o, const iso_start *start)
-{
-    const iso_orbit_options *opt = &o->options;
-    const bool M = start->model == ISO_POINT || (opt->shown != ISO_SHOW_BALL && !opt->gamma_alone);
-    bool fits = !M || isnormal(o->unit_M);
-    for (int c = 0; c < ISO_CLOCKS; c++)
-        fits = fits && ((c != (int)opt->clock && !opt->with_clock[c]) || isnormal(o->unit_clock[c]));
-    if (fits) return ISO_OK;
-    return ISO_FAIL_NUMERICAL(o->ctx,
-                              "M (about %g) or a clock (s about %g) does not fit a double in these units: use other "
-                              "units of mass, length or time, or ask for the ball in its time t alone",
-                              o->unit_M, o->unit_clock[ISO_CLOCK_S]);
-}
-
 /* Chooses the own units, for a ball that moves as fast as at the start, or as the potentials can make it. y: the start
  * in them. Returns the problem in own units, as far as it is known yet: in its place, since it is too large to copy for
  * each orbit. */
@@ -58,9 +43,8 @@ static iso_problem *to_own_units(iso_orbit *o, const iso_params *p, const iso_st
     problem->p = *p;
     iso_effects_copy(&o->effects, &problem->effects);
     if (!iso_effects_none(&o->effects)) falling = sqrt(2 * iso_effects_strength(problem, still) / max3(p->J));
-    speed =
-        fmax(speed, isfinite(falling) ? falling : 0) * fmax(1, fabs(p->k)); /* the normal turns |k| times as fast */
-    iso_units_choose(p, speed, &o->units);
+    speed = fmax(speed, isfinite(falling) ? falling : 0);
+    iso_units_choose(p, speed * fmax(1, fabs(p->k)), &o->units); /* the normal turns |k| times as fast */
     o->unit_M = iso_unit(&o->units, iso_system_point.fast_dimension);
     for (iso_clock c = 0; c < ISO_CLOCKS; c++) o->unit_clock[c] = iso_unit(&o->units, iso_clock_dimension(c));
     iso_effects_scale(&o->effects, &o->units, -1);
@@ -141,18 +125,6 @@ static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start
 
 /* --- what effects allow ----------------------------------------------------------------------------------------- */
 
-/* The closed solution knows what `level` and a rotor do to the point, and nothing else that acts. */
-static iso_status check_closed(iso_context *ctx, const iso_effects *effects)
-{
-    const iso_effect *effect = iso_effects_beyond_rotor(effects);
-    if (!effect) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(
-        ctx, effect->name,
-        "the closed solution is for a ball on which nothing acts but '%s' and a rotor, not for one with '%s': take "
-        "backend %s",
-        iso_level_name(), effect->name, iso_effect_why_broken(effect) ? "ball" : "point");
-}
-
 iso_status iso_orbit_no_point(iso_context *ctx, const iso_effect *breaking)
 {
     return iso_context_fail(ctx, ISO_NOT_MAPPED, breaking->name,
@@ -169,7 +141,13 @@ static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_sta
     const bool point = by_point || o->options.shown != ISO_SHOW_BALL || start->model == ISO_POINT;
     if (start->model == ISO_POINT && isnan(iso_effects_level(e)))
         iso_effects_set_level(e, false, NAN); /* as it comes */
-    if (o->options.backend == ISO_BACKEND_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
+    const iso_effect *beyond = o->options.backend == ISO_BACKEND_EXACT ? iso_effects_beyond_rotor(e) : NULL;
+    if (beyond)
+        return ISO_FAIL_ARGUMENT(
+            o->ctx, beyond->name,
+            "the closed solution is for a ball on which nothing acts but '%s' and a rotor, not for "
+            "one with '%s': take backend %s",
+            iso_level_name(), beyond->name, iso_effect_why_broken(beyond) ? "ball" : "point");
     if (breaking && point) return iso_orbit_no_point(o->ctx, breaking);
     if (only_ball && by_point)
         return ISO_FAIL_ARGUMENT(o->ctx, only_ball->name, "'%s' is the ball's: take backend ball", only_ball->name);
@@ -227,7 +205,9 @@ static void to_system(const iso_orbit *o, iso_model_kind model, double y[ISO_STA
  * needed, be it by its states or as what is integrated. */
 static iso_status check_range(iso_orbit *o, const iso_start *start, bool twin, const double y[ISO_STATE])
 {
+    const iso_orbit_options *opt = &o->options;
     const bool ball = start->model == ISO_BALL, level = iso_effects_have_level(&o->effects);
+    const bool M = !ball || (opt->shown != ISO_SHOW_BALL && !opt->gamma_alone);
     /* where the normal is to turn once in a unit of time, h goes like k^-2 and eps like k^-4 */
     const bool still = ball && o->h == 0 && !iso_orbit_has_twin(o);
     const bool lost = ball && o->h != 0 && !(isnormal(o->h) && isnormal(o->eps));
@@ -236,7 +216,15 @@ static iso_status check_range(iso_orbit *o, const iso_start *start, bool twin, c
     if (twin && still)
         return iso_context_fail(o->ctx, ISO_NOT_MAPPED, "angular_velocity",
                                 "a ball at rest (h = 0) has no twin: the point's potential would vanish");
-    ISO_TRY(check_units(o, start));
+    bool fits = !M || isnormal(o->unit_M); /* what numbers are measured with; they must not lose digits either */
+    for (int c = 0; c < ISO_CLOCKS; c++)
+        fits = fits && ((c != (int)opt->clock && !opt->with_clock[c]) || isnormal(o->unit_clock[c]));
+    if (!fits)
+        return ISO_FAIL_NUMERICAL(
+            o->ctx,
+            "M (about %g) or a clock (s about %g) does not fit a double in these units: use other "
+            "units of mass, length or time, or ask for the ball in its time t alone",
+            o->unit_M, o->unit_clock[ISO_CLOCK_S]);
     ISO_TRY(check_constant(o, start, y));
     if (ball && level && iso_effects_level(&o->effects) == 0)
         return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",

@@ -201,12 +201,12 @@ iso_status iso_walk_go(iso_walk *w)
 double iso_walk_turn(iso_orbit *orbit, iso_clock clock)
 {
     iso_sample start;
-    const iso_units *units = iso_orbit_units(orbit);
-    const bool point = clock == ISO_CLOCK_S, pulled = iso_effects_pull(&iso_orbit_model(orbit)->problem.effects);
-    const double unit = point ? iso_unit(units, iso_system_point.fast_dimension) : units->w;
+    const bool point = clock == ISO_CLOCK_S, pulled = iso_effects_pull(&orbit->effects);
+    const double unit = point ? orbit->unit_M : orbit->units.w;
     if (iso_orbit_at(orbit, 0, &start) != ISO_OK) return NAN;
     const double speed = norm(point ? start.point : start.ball);
-    return 2 * ISO_PI / ((isnan(speed) ? unit : fmax(speed, pulled ? unit : 0)) * (point ? 1 : fabs(units->own.k)));
+    return 2 * ISO_PI /
+           ((isnan(speed) ? unit : fmax(speed, pulled ? unit : 0)) * (point ? 1 : fabs(orbit->units.own.k)));
 }
 
 /* --- the orbits of a scene -------------------------------------------------------------------------------------- */
