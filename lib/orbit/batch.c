@@ -135,16 +135,6 @@ static iso_status finish(iso_pool_worker *w, const batch *b, const member *m)
     return job->done == b->rows ? ISO_OK : iso_context_stopped(w->ctx);
 }
 
-/* The samples of a chunk go to the table. Their numbers stand in the order of the columns. */
-static void take_columns(const batch *b, const iso_sample sample[], size_t first, size_t count)
-{
-    _Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double), "an array of its columns");
-    const double *from = (const double *)sample;
-    double *to = b->table + first * b->rows * (size_t)b->width;
-    for (size_t i = 0; i < count * b->rows; i++, from += ISO_TRAJECTORY_COLUMNS)
-        for (int c = 0; c < b->width; c++) *to++ = from[b->columns[c]];
-}
-
 static bool solve_chunk(iso_pool_worker *w, void *data, size_t first, size_t count)
 {
     const batch *b = data;
@@ -171,7 +161,9 @@ static bool solve_chunk(iso_pool_worker *w, void *data, size_t first, size_t cou
     }
     memory = memory && iso_lanes_in_groups(w, b->code, b->options.tolerance, b->options.max_steps, jobs, waiting);
     for (size_t j = 0; memory && j < waiting; j++) note(w, b, first + place[j], finish(w, b, &members[place[j]]));
-    if (memory && b->table) take_columns(b, samples, first, count);
+    double *to = b->table ? b->table + first * b->rows * (size_t)b->width : NULL;
+    for (size_t i = 0; memory && to && i < count * b->rows; i++)
+        for (int c = 0; c < b->width; c++) *to++ = iso_sample_column(&samples[i], b->columns[c]);
     for (size_t i = first; !memory && i < first + count; i++) b->status[i] = UNTOUCHED;
     free(members);
     return memory;

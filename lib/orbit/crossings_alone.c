@@ -42,8 +42,7 @@ static iso_status begin(iso_crossings *c, size_t i)
     ISO_TRY(iso_orbit_at(o->alone, 0, &start));
     if (o->alone->rests && c->options.kind != ISO_SECTION_CLOCK)
         return ISO_FAIL_NUMERICAL(o->ctx, "the ball rests: it crosses no section");
-    iso_crossings_find_section(c, o->alone, o);
-    return iso_crossings_begin(o->ctx, of->params, o->alone, state_of(o->alone, &start), o);
+    return iso_crossings_begin(o->ctx, c, of->params, o->alone, state_of(o->alone, &start), o);
 }
 
 /* What an event looks at, and what it has seen since the last crossing: the least and the largest n_1, n_2, n_3 (of

@@ -53,21 +53,6 @@ iso_status iso_crossings_check_axis(iso_context *ctx, int axis)
     return ISO_FAIL_ARGUMENT(ctx, "axis", "axis %lld is not 1, 2 or 3", axis + 1LL);
 }
 
-/* Only where nothing acts but a level, orbits obey gamma_a'' = -W^2 gamma_a. */
-void iso_crossings_find_section(const iso_crossings *c, const iso_orbit *orbit, iso_crossing_orbit *o)
-{
-    const iso_point_motion motion = iso_orbit_motion(orbit);
-    double W[2];
-    o->bound[0] = o->bound[1] = NAN;
-    o->axis = -1;
-    if (c->options.kind != ISO_SECTION_AXIS) return;
-    o->axis = c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(motion) : c->options.axis;
-    if (!iso_effects_are_free(&orbit->effects) || !iso_orbit_has_twin(orbit)) return;
-    iso_section_bounds(motion, o->axis, W);
-    o->bound[0] = 2 * ISO_PI / W[1];
-    o->bound[1] = 2 * ISO_PI / W[0];
-}
-
 /* The number of parts in a unit of the variable of the series, so that gamma_a has at most one zero in each. A zero
  * shows by the signs of n_a at the ends of a part. In s, a part of length x is short enough if W x <= pi, by Sturm.
  * In t, let r = ds/dt ~ q^(1+1/(2k)) and Omega = W r. Lyapunov's inequality 4 < (s2 - s1) int W^2 ds between two
@@ -127,20 +112,31 @@ static void to_point(const iso_params *p, iso_model_kind model, const double y[I
  * rounding. */
 #define ON_SECTION 1e-8
 
-/* By the directions of M and gamma, also of a ball: so both models agree about a start. gamma_a oscillates at the
- * rate of about |M|. So gamma_a'/|M| has the size of gamma_a. If it falls at the start, the first crossing comes after
- * half an oscillation. An orbit in the plane n_a = 0 stays in it, unless a potential beyond the level moves it. */
-iso_status iso_crossings_begin(iso_context *ctx, const iso_params *p, const iso_orbit *orbit,
+/* Only where nothing acts but a level, orbits obey gamma_a'' = -W^2 gamma_a, which bounds the distance of crossings.
+ * The place of the start is found by the directions of M and gamma, also of a ball: so both models agree about it.
+ * gamma_a oscillates at the rate of about |M|. So gamma_a'/|M| has the size of gamma_a. If it falls at the start, the
+ * first crossing comes after half an oscillation. An orbit in the plane n_a = 0 stays in it, unless a potential beyond
+ * the level moves it. */
+iso_status iso_crossings_begin(iso_context *ctx, const iso_crossings *c, const iso_params *p, const iso_orbit *orbit,
                                const double y[ISO_STATE], iso_crossing_orbit *o)
 {
-    const int a = o->axis, b = (a + 1) % 3, c = (a + 2) % 3;
-    const bool moved = iso_effects_pull(&orbit->effects) && !iso_effects_are_free(&orbit->effects);
-    double point[ISO_STATE];
-    if (a < 0) return ISO_OK;
+    const iso_point_motion motion = iso_orbit_motion(orbit);
+    const bool is_free = iso_effects_are_free(&orbit->effects), moved = iso_effects_pull(&orbit->effects) && !is_free;
+    double point[ISO_STATE], W[2];
+    o->bound[0] = o->bound[1] = NAN;
+    o->axis = -1;
+    if (c->options.kind != ISO_SECTION_AXIS) return ISO_OK;
+    const int a = c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(motion) : c->options.axis;
+    o->axis = a;
+    if (is_free && iso_orbit_has_twin(orbit)) {
+        iso_section_bounds(motion, a, W);
+        o->bound[0] = 2 * ISO_PI / W[1];
+        o->bound[1] = 2 * ISO_PI / W[0];
+    }
     for (int i = 0; i < 3; i++) point[i] = y[i] / largest(y), point[3 + i] = y[3 + i];
     to_point(p, iso_crossings_model(orbit), point, point);
-    const double *M = point, *gamma = point + 3;
-    const double pace = norm(M), rise = gamma[b] * M[c] - gamma[c] * M[b];
+    const double *M = point, *gamma = point + 3, pace = norm(M);
+    const double rise = gamma[(a + 1) % 3] * M[(a + 2) % 3] - gamma[(a + 2) % 3] * M[(a + 1) % 3];
     o->upwards = rise >= 0;
     o->begins_on_it = fabs(pace * gamma[a]) <= ON_SECTION * hypot(pace * gamma[a], rise);
     if (!iso_section_is_rotation(y, a) || moved) return ISO_OK;

@@ -95,12 +95,9 @@ iso_status iso_crossings_check_axis(iso_context *ctx, int axis);
     "the rotation about axis %d, in the plane n_%d = 0 itself: it is the boundary of the section, and never "        \
     "crosses it"
 
-/* Sets o->axis and o->bound of an orbit that is prepared; NaN if there are no bounds. */
-void iso_crossings_find_section(const iso_crossings *c, const iso_orbit *orbit, iso_crossing_orbit *o);
-
-/* Finds whether the start y, (omega, n) or (M, gamma), lies on the section. Refuses an orbit that lies, and stays, in
- * the plane n_axis = 0 itself. */
-iso_status iso_crossings_begin(iso_context *ctx, const iso_params *p, const iso_orbit *orbit,
+/* Sets o->axis and o->bound of an orbit that is prepared (NaN if there are no bounds), and whether its start y, (omega,
+ * n) or (M, gamma), lies on the section. Refuses an orbit that lies, and stays, in the plane n_axis = 0 itself. */
+iso_status iso_crossings_begin(iso_context *ctx, const iso_crossings *c, const iso_params *p, const iso_orbit *orbit,
                                const double y[ISO_STATE], iso_crossing_orbit *o);
 
 /* Fills in clocks and chart of the next crossing: `clock` in the caller's units, s in own units. y: (omega, n) or

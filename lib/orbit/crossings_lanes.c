@@ -74,21 +74,21 @@ static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
         if (axis) how.clock = ISO_CLOCK_T; /* its series are the shortest */
         status = iso_orbit_prepare(orbit, w->ctx, &how, of->params, of->start, lane->job.start);
     } while (iso_attempt_next(&attempt, status));
-    if (status == ISO_OK) iso_crossings_find_section(c, orbit, o);
-    if (status != ISO_OK || !iso_lanes_suit(orbit) ||
-        (axis && !(attempt.clocks && isfinite(o->bound[0]) && isfinite(o->bound[1])))) {
+    const bool suits = status == ISO_OK && iso_lanes_suit(orbit);
+    double room[ISO_STATE];
+    if (suits)
+        status = iso_crossings_begin(w->ctx, c, &orbit->units.own, orbit, state_of(orbit, lane->job.start, room), o);
+    if (!suits || status != ISO_OK || (axis && !(attempt.clocks && isfinite(o->bound[0]) && isfinite(o->bound[1])))) {
         free(lane);
         return status;
     }
-    double room[ISO_STATE];
-    status = iso_crossings_begin(w->ctx, &orbit->units.own, orbit, state_of(orbit, lane->job.start, room), o);
     if (axis) set_search(orbit, o, &lane->job);
     lane->job.model = &orbit->model;
     lane->job.unit = orbit->unit_clock[orbit->options.clock];
     lane->job.saved = lane->saved;
     lane->job.on_section = o->begins_on_it;
     o->lane = lane;
-    return status;
+    return ISO_OK;
 }
 
 /* --- numbers of a crossing -------------------------------------------------------------------------------------- */
