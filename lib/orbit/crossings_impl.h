@@ -116,7 +116,7 @@ void iso_crossing_blank(iso_crossing *crossing);
  * level. */
 iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x);
 
-/* Why orbit i has failed, in words without its number. */
+/* Why orbit i has failed: the message without its number. */
 const char *iso_crossings_why(const iso_crossings *c, size_t i);
 
 #endif

@@ -1,4 +1,4 @@
-/* rows_complete.c - gives a trajectory the columns that it lacks (see rows_impl.h). The other model comes from the map
+/* rows_complete.c - adds to a trajectory the columns that it lacks (see rows_impl.h). The other model comes from the map
  * (18). The clocks, the attitude, contact and centre come from each row to the next, so that they stay close to the
  * given rows, also on chaotic orbits. */
 #include <string.h>
@@ -18,7 +18,7 @@ typedef struct completion {
     bool given[ISO_TRAJECTORY_COLUMNS]; /* the trajectory has it                        */
     int q, contact, centre;             /* places in iso_sample.effect                  */
     iso_model_kind model;               /* whose states the rows have                   */
-    iso_clock clock;                    /* that gives the times of the rows             */
+    iso_clock clock;                    /* of the times of the rows                     */
     double begun[ISO_CLOCKS];           /* clocks at the row before                     */
     double shift[3];                    /* on a plane: the contact there                */
     double attitude[4];                 /* there                                        */
