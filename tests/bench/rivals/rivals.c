@@ -20,17 +20,3 @@ const rival_walker rival_walkers[] = {
 #endif
     {NULL, NULL},
 };
-
-#define ORDERS(vectors, solve)                                                                                       \
-    {vectors, 12, solve}, {vectors, 14, solve}, {vectors, 16, solve}, {vectors, 18, solve},                          \
-    {                                                                                                                \
-        vectors, 20, solve                                                                                           \
-    }
-
-const yardstick yardsticks[] = {
-#ifdef YARDSTICKS
-    ORDERS("avx512", yardstick_avx512),
-    ORDERS("avx2", yardstick_avx2),
-#endif
-    {NULL, 0, NULL},
-};
