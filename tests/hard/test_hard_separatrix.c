@@ -279,7 +279,7 @@ static void check_on(void)
                      h = dot(M, M) / 2 * pow(q, 1 / p.k) / p.det_J; /* eps k^2/det J */
         const double w = sqrt(2 * h / p.J[1]);
         worst = hard_worse(status == ISO_OK ? fabs(fabs(s.ball[1]) / w - 1) + fabs(s.ball[4]) : NAN, worst);
-        for (int j = 1; j <= 40; j += 13) {
+        for (int j = 1; j <= 40; j += 3) {
             status = hard_solve(ctx, &steps, &p, &start, NULL, true, ISO_CLOCK_T, (40 + 10 * j) / w, &s);
             naive = hard_worse(status == ISO_OK ? fabs(s.ball[4]) : NAN, naive);
         }
