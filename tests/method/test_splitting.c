@@ -74,17 +74,6 @@ static void check_order(const bundle *b, const iso_method *m)
     }
 }
 
-/* The reference of the orders is right. */
-static void check_reference(const bundle *b)
-{
-    double worst = 0, y[ISO_MAX_STATE];
-    for (int i = 0; i < STATES; i++) {
-        orbit_reference(&b->orbits[i], ARC * b->orbits[i].unit, y);
-        worst = fmax(worst, orbit_error(&b->orbits[i], b->reference[i], y));
-    }
-    gsl_test(!(worst < 1e-11), "fine steps against rk8pd, k = %g: %.1e", b->orbits->model.problem.p.k, worst);
-}
-
 /* --- long runs -------------------------------------------------------------------------------------------------- */
 
 static int steps_of_long_runs(void)
@@ -181,7 +170,6 @@ int main(void)
     ctx = iso_context_create();
     for (int k = 0; k < 2; k++) {
         const bundle b = make_bundle(orbit_k[k]);
-        check_reference(&b);
         for (int i = 0; i < METHODS; i++) check_order(&b, iso_method_find(names[i]));
     }
     for (int k = 0; k < 2; k++) {

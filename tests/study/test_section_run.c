@@ -5,7 +5,6 @@
 #include "instrument/section/section_impl.h"
 #include "map/state.h"
 #include "orbit/orbit_impl.h"
-#include "poisson.h"
 #include "studies.h"
 
 enum { MOST = 24000, WIDTH = 40 };

@@ -2,14 +2,14 @@
 #include "rivals.h"
 
 const rival rivals[] = {
-    {"GSL rk8pd", rival_gsl_rk8pd, false},
+    {"GSL rk8pd", rival_gsl_rk8pd},
 #ifdef RIVAL_ODEINT
-    {"odeint fehlberg78", rival_odeint_fehlberg, false},
-    {"odeint bulirsch_stoer", rival_odeint_stoer, false},
+    {"odeint fehlberg78", rival_odeint_fehlberg},
+    {"odeint bulirsch_stoer", rival_odeint_stoer},
 #endif
-    {"ARKODE fehlberg_13_7_8", rival_arkode_fehlberg, true},
-    {"CVODE adams", rival_cvode_adams, true},
-    {NULL, NULL, false},
+    {"ARKODE fehlberg_13_7_8", rival_arkode_fehlberg},
+    {"CVODE adams", rival_cvode_adams},
+    {NULL, NULL},
 };
 
 const rival_walker rival_walkers[] = {

@@ -19,11 +19,10 @@ extern "C" {
 
 typedef bool rival_solve(const rival_problem *p, double tolerance, double end, double y[6]);
 
-/* The list ends with the name NULL. `slow`: known to take several times as long as the others. */
+/* The list ends with the name NULL. */
 typedef struct rival {
     const char *name;
     rival_solve *solve;
-    bool slow;
 } rival;
 
 extern const rival rivals[];
