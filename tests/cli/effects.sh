@@ -106,7 +106,7 @@ awk -F, -v OFS=, '/^#/ { print; next } { print $1, $2, $3, $4, $5, $6, $7 }' hea
 refuses 3 "no column 'e1', without which 'gravity' is not known" check bad.csv
 refuses_changed everything.csv '/^# D:/d' "'twist' needs the ball's mass and radius" check
 
-# --- loss of contact: words, and rows to the loss (where it is, and in which order: test_run_contact)
+# --- loss of contact: words, and rows to the loss (where it is, and in which order: test_run)
 physical outside 3 "$gravity" "reactions: {}" >loss.yaml
 run 0 run loss.yaml --t-end 3 -o loss.csv
 says "contact is lost at t = 1.95"
