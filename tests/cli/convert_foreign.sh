@@ -16,8 +16,6 @@ foreign() {
     at_most "$name" "$(difference point.csv out)" 1e-13
 }
 # (separators, ends of lines, exponents, names in quotes and behind #: test_trajectory)
-awk -F, -v OFS=, '{ print $7, $5, $6, $4, $3, $2, $1 }' bare.csv >reversed.csv
-foreign "columns in another order" reversed.csv
 sed 's/[^,]*/"&"/g' bare.csv >spreadsheet.csv
 foreign "quoted numbers" spreadsheet.csv
 tail -n +2 bare.csv >nameless.csv
@@ -152,32 +150,18 @@ if "$isoroll" run scene.yaml -o ball.h5 2>/dev/null; then
     run 1 convert --quiet --to point damaged.csv -o damaged.h5
     run 1 convert --quiet --to ball damaged.h5 -o from_damaged.csv
     check "marks in HDF5" test "$(rows from_damaged.csv | grep -c '^nan')" -eq 7
-    head -c 1000 ball.h5 >torn.h5
-    refuses 3 "torn.h5" convert --to point torn.h5
-    refuses 5 "cannot open" convert --to point absent.h5
     check "an older file stays where a conversion fails" cp point.h5 older.h5
     run 3 convert --strict --to point damaged.csv -o older.h5
     check "as it was" cmp point.h5 older.h5
-    if [ -e /proc/self/limits ]; then # a full disk
-        (ulimit -f 60 && "$isoroll" convert --quiet --to point ball.csv -o full.h5) 2>err
-        status=$?
-        check "a full disk" test "$status" -eq 5
-        check_not "leaves no file" test -e full.h5
-    fi
-    if has h5dump "h5dump of a converted file"; then
-        check "h5dump reads it" sh -c 'h5dump -d /point/gamma point.h5 | grep -q "(0,0): 0.4719"'
-    fi
 else
     refuses 2 "no HDF5" run scene.yaml -o ball.h5
     skip "HDF5 files" "this build has no HDF5"
 fi
-# a point on a level, written with few digits, is still on it; a name that begins like a number is a name
+# of a line that is off, the other lines say which
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.1 >scene.yaml
 echo 'effects: {level: {c: 0.1}}' >>scene.yaml
 run 0 run scene.yaml -o level.csv
-run 0 convert --quiet -p 7 --to point level.csv -o point.csv
-run 0 convert --quiet --to ball point.csv -o back.csv
-check "seven digits on a level: all rows" test "$(rows back.csv | grep -c nan)" -eq 0
+run 0 convert --quiet --to point level.csv -o point.csv
 sed 's/^# level.c: .*/# level.c: 0.1001/' point.csv >other.csv
 run 0 convert --quiet --to ball other.csv -o back.csv # h and eps say c: the line is off
 says "other.csv: # level.c: 0.1001 does not fit the first row"
