@@ -297,11 +297,6 @@ steady() {
         grep -qE '<tspan[^>]* dy="[^" ]*">(( | )[^<]*|[^<]* )</tspan>|"[ ]?>[^<]* </tspan><tspan' "$1"
 }
 
-# larger A B: the larger of two numbers
-larger() {
-    awk -v a="$1" -v b="$2" 'BEGIN { print (a + 0 > b + 0 ? a : b) }'
-}
-
 # rows FILE: the rows of a trajectory, without header and # lines
 rows() {
     grep -v '^#' "$1" | tail -n +2
