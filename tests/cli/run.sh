@@ -87,6 +87,8 @@ run 0 run scene.yaml --step 100
 check "a step beyond the end" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "0 10 "
 run 0 run scene.yaml --t-end 0
 check "end: 0 is one row" test "$(rows out | cut -d, -f1)" = 0
+run 0 run scene.yaml --t-end 5e-324 --step 100
+check "two rows to the end of one ulp" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "0 4.9406564584124654e-324 "
 
 # --- where it is written
 "$isoroll" run - <scene.yaml >a
