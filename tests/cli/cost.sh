@@ -71,13 +71,6 @@ refuses 3 "open.yaml:1:" cost open.yaml --backend exact
 (ulimit -t 2 && "$isoroll" cost scene.yaml --csv absent/a.csv 2>err) # seconds of processor time; the work takes more
 check "refused before the work" test $? -eq 5
 
-# --- pictures
-if has gnuplot "--plot"; then
-    quietly cost scene.yaml --method rk8pd --plot picture.svg
-    shows picture.svg 'processor time' '>rk8pd<'
-    run 5 cost scene.yaml --method rk8pd --plot absent/a.svg
-fi
-
 # --- interruptions (closed pipes and full disks: hard_faults.sh)
 if interruptible "SIGINT"; then
     mkdir stop

@@ -12,9 +12,7 @@ effect() {
 
 # Orbits at these limits are in C (test_hard_twist, test_hard_rest, test_hard_contact); here is how the command ends.
 effect "twist: {resistance: 1.0e+12}" 5 >stiff.yaml
-for method in taylor rk8pd adams msadams dormand_prince_7_4_5; do
-    refuses 2 "take bdf or bsimp" run stiff.yaml --method $method
-done
+refuses 2 "take bdf or bsimp" run stiff.yaml --method taylor
 run 0 run stiff.yaml
 prints 'lambda' explain stiff.yaml
 run 3 compare stiff.yaml
@@ -29,15 +27,9 @@ for method in auto bdf; do # others: test_hard_rest
     hard_hold "$(cell out -1 omega1 | tr -d -)" 0 ball $method
     check "$method: numbers" sh -c '! grep -i -q -e nan -e inf out'
 done
-effect "rolling_resistance: {coefficient: 1}" 200 >fading.yaml
-run 0 run fading.yaml --step 1 -o fading.csv
-run 0 check fading.csv --max 1e-9
-
 effect "rolling_resistance: {coefficient: 1}" -1000 >back.yaml
-for method in taylor rk8pd bsimp bdf; do
-    run 4 run back.yaml --method $method -o part.csv
-    check "$method: says why" grep -q "backwards in time resistance drives the ball" err
-done
+run 4 run back.yaml -o part.csv
+check "it says why" grep -q "backwards in time resistance drives the ball" err
 
 # All at once, each tiny: the ball with none of them but the twist.
 hard_case "all effects of 1e-300" "(omega, n) against the classical ball" "their units differ by 1e300 from those of the ball"

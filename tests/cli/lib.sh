@@ -387,11 +387,6 @@ hard_skip() {
     skip "$case" "$1"
 }
 
-# hard_refused WORDS [BACKEND METHOD]: the right answer is to refuse (check that with `refuses`)
-hard_refused() {
-    printf '%s\t%s\trefused\t%s\t%s\t%s\t0\n' "$topic" "$case" "${2-}" "${3-}" "$1" >>"$table"
-}
-
 # hard_naive HOW VALUE BOUND: the naive formula must break the bound
 hard_naive() {
     printf '%s\t%s\tnaive\t%s\t\t%s\t%s\n' "$topic" "$case" "$1" "$2" "$3" >>"$table"

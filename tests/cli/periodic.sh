@@ -82,13 +82,4 @@ refuses 2 "do not go with --chart" periodic b.yaml --chart J2 --all
 refuses 2 "not --polish" periodic b.yaml --polish --follow k=0.4:0.6
 refuses 2 "choose one" periodic b.yaml --json -o -
 
-# --- pictures
-if has gnuplot "--plot"; then
-    run 0 periodic b.yaml --period 3 --plot a.svg
-    check "a picture of orbits" grep -q ">unstable; each stable orbit has a colour<" a.svg
-    run 0 periodic b.yaml --period 1 --follow k=0.4:0.6 --plot f.svg
-    check "a picture of a branch" grep -q ">trace<" f.svg
-    run 0 periodic b.yaml --chart J2 --steps 10 --plot c.svg
-    check "a picture of the chart" grep -q "greatest moment" c.svg
-fi
 finish

@@ -11,7 +11,6 @@ check "one row" grep -q '^ *0.5 .* 6.14708829830.*e-03 ' out
 quietly splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 -o split.csv -j 2
 check "k = 1: words" grep -q ' 0 .*not distinguishable from 0: below ' out
 
-
 # --- a zero
 scene 1 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >wide.yaml
 quietly splitting wide.yaml --k=-1.7,-1.5 --digits double --json
@@ -75,14 +74,6 @@ says "1 of 2 values of the level failed"
 run 0 splitting half.yaml --json
 for key in rows k x m error digits; do check "JSON: $key" grep -q "\"$key\":" out; done
 check "JSON: digits" grep -q '"digits": 19' out
-
-# --- pictures
-if has gnuplot "pictures"; then
-    run 0 splitting half.yaml --digits double --k 0.4:0.8:0.2 --plot scan.svg
-    check "a picture of a scan" grep -q '</svg>' scan.svg
-    run 0 splitting half.yaml --plot one.svg
-    check "a picture of one k" grep -q '</svg>' one.svg
-fi
 
 # --- Ctrl-C
 refuses 5 "nowhere" splitting half.yaml -o nowhere/split.csv

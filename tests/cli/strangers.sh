@@ -87,21 +87,4 @@ for set in /clock/t /ball/omega; do
     run 0 convert --to point bad.h5 -o packed.csv
     check "packed $set: the same rows" test "$(grep -v '^#' packed.csv | cksum)" = "$(grep -v '^#' plain.csv | cksum)"
 done
-# Python
-export ISOROLL_LIBRARY="${ISO_BUILD-}/libisoroll.so.0" PYTHONPATH="$source/apps/python" PYTHONDONTWRITEBYTECODE=1
-find_python isoroll
-if [ -z "$python" ]; then
-    skip "files of strangers in Python" "the package cannot be loaded"
-else
-    for kind in external-storage external-link virtual unpacked; do
-        stranger $kind good.h5 /clock/t
-        checks=$((checks + 1))
-        timeout -s KILL 20 "$python" -c "import isoroll
-try:
-    isoroll.read('bad.h5')
-except Exception as error:
-    print(error)" >out 2>err
-        grep -q "bad.h5: .*/clock/t" out || fail "Python, $kind: $(cat out)"
-    done
-fi
 finish
