@@ -57,11 +57,6 @@ check "nothing is told of deviations that are not followed" test "$(grep -c '"ga
 
 # --- pictures
 if has gnuplot pictures; then
-    run 0 chaos chaotic.yaml --plot indicators.svg
-    check "indicators" grep -q 'MEGNO' indicators.svg
-    run 0 chaos chaotic.yaml --starts 30 --turns 300 --plot section.svg
-    check "exponents" grep -q 'exponent per turn' section.svg
-    run 0 chaos regular.yaml --starts 5 --turns 400 --plot none.svg
     run 0 chaos plane.yaml --starts 5 --turns 400 --plot around.svg
     check "the section around a rotation" grep -q 'exponent per turn' around.svg
 fi
@@ -71,7 +66,6 @@ check_not "and no file" test -e plane.svg
 
 # --- where an additional integral is known, undecided orbits are not chaotic
 prints "undecided ones are not chaotic: the integral excludes it" chaos regular.yaml --starts 4 --turns 2
-
 
 # --- Ctrl-C keeps what is known
 if interruptible "chaos after SIGINT"; then

@@ -24,7 +24,6 @@ check "what steps would not reach" grep -q 'error not known: taylor_extended sto
 run 0 run exact.yaml --verbose
 check "its error" grep -q 'error of (omega, n) at most' err
 
-
 # --- where there is none
 scene 0.5 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >half.yaml
 cat >body.yaml <<END

@@ -68,7 +68,6 @@ run 4 run root.yaml -o root.csv
 check "the last good time" grep -q "last good t = 6.1.*; there U of 'potential' has, in column 5 of the text, sqrt of " err
 check "the rows before it" test "$(rows root.csv | wc -l)" -eq 7
 
-
 # --- not finite where the ball starts (the ways to get there: bad_expressions.txt): bad input, whoever asks
 at="not a finite number where the ball starts, at"
 scene 'torque: {M: ["0", "0.1/(omega1 - 0.9)", "n1"]}' >torque.yaml
@@ -92,8 +91,6 @@ for command in "run --t-end 1000 -o d.csv" "run --t-end -1000 --method rk8pd -o 
     words="'torque' drives the ball, without end: it turns more than 10000 times as fast as at the start; last good t = "
     check "$command: why" grep -q "$words" err
 done
-run 4 run friction.yaml --t-end -1000 -o c.csv
-check "friction backwards" grep -q "'torque' drives the ball" err
 fed="(1 - omega1^2 - omega2^2 - omega3^2)"
 scene "torque: {M: [\"omega1*$fed\", \"omega2*$fed\", \"omega3*$fed\"]}" |
     sed 's/angular_velocity.*/angular_velocity: [9e-6, -3e-6, -2.25e-6]}/' >fed.yaml
@@ -115,8 +112,6 @@ effects: {potential: {U: "1e12 + 0.1*n1"}}
 END
 quietly run constant.yaml -o constant.csv
 refuses 4 "3.5e+12 times what can change of the energy: the point loses" run constant.yaml --backend point
-scene 'potential: {U: "n1^0 + n2*n1"}' | sed 's/normal: .*8]/normal: [0, 0.6, 0.8]/; s/ -0.3,/ 0.3,/' >power.yaml
-run 0 run power.yaml --t-end 1 -o power.csv
 
 # --- corners, of an even power under a root: where they are refused (which are: test_expression)
 scene 'potential: {U: "n1*(n1^2)^(-0.5)"}' >corner.yaml
@@ -131,8 +126,6 @@ scene 'potential: {U: "sqrt(n1^2 + 0.01)"}' >smooth.yaml
 run 0 run smooth.yaml --t-end 1 -o smooth.csv
 sed 's/ + 0.01)/)/' smooth.csv >corner.csv
 refuses 3 "column 1 of the text: this is the root of an even power" check corner.csv
-scene 'torque: {M: ["0", "0", "sqrt(omega1^2)"]}' >corner.yaml
-refuses 3 "corner.yaml:5:27: M3: this is the root of an even power" run corner.yaml
 
 # --- integrals that the scene claims: the energy of the valley, and what is none
 k=-1
@@ -155,10 +148,6 @@ check "explain: none holds" sh -c "sed -n '/^integrals that hold/,/^integrals th
 refuses_changed claims.yaml 's/F: "[^"]*"/F: "n4"/' "bad.csv:6:19: F: unknown name 'n4'" run
 refuses_changed claims.yaml 's/F: "[^"]*"/F: "3*c"/' "bad.csv:6:18: F is the same number at every state" run
 refuses_changed claims.yaml 's/F: "[^"]*"/F4: "n1"/' "bad.csv:6:15: unknown key 'F4'" run
-sed 's/F: "[^"]*"/F: "log(-1 - n1)"/' claims.yaml >never.yaml
-run 0 run never.yaml -o never.csv
-run 1 check --max 1e-9 never.csv
-check "it is defined nowhere" awk '$2 == "F" { found = $3 == "inf" } END { exit !found }' out
 
 # --- a sweep over a parameter
 cat >sweep.yaml <<END

@@ -121,11 +121,9 @@ for kind in fails inside; do
     run 1 sweep $kind.yaml -o $kind.csv
     run 1 sweep "$PWD/$kind.yaml" -o absolute.csv
     check "$kind: an absolute path" cmp absolute.csv $kind.csv
-    run 1 sweep below/../$kind.yaml -o detour.csv
-    check "$kind: a detour" cmp detour.csv $kind.csv
     (cd below && "$isoroll" sweep ../$kind.yaml -o below.csv 2>/dev/null)
     check "$kind: another folder" cmp below/below.csv $kind.csv
-    rm absolute.csv detour.csv below/below.csv
+    rm absolute.csv below/below.csv
 done
 check "the reason names the scene" grep -q '"scene.yaml:1:14: k = 0' fails.csv
 check "the reason names the sweep" grep -q '"<sweep>:2:16: k = 0' inside.csv
