@@ -68,6 +68,7 @@ if has gnuplot "--plot"; then
     run 5 frequencies estimate.yaml --turns 50 --plot absent/a.svg
 fi
 
+# On a level: the ball with the potential of the level and its point have the same frequencies in every clock.
 for k in $(length 0.5 "0.5 -0.6"); do
     cat >ball_level.yaml <<END
 reduced: {k: $k, J: [1.4, 2.1, 3.0]}
