@@ -194,11 +194,8 @@ static void print_found(FILE *to, const iso_scene *scene, const void *options, c
     fputs(((const iso_analogue_found *)result->found)->text, to);
 }
 
-const iso_study iso_analogue_study = {"analogue",
-                                      "find a ball that realises a problem of a point on a sphere",
-                                      iso_analogue_option,
-                                      sizeof(iso_analogue_request),
-                                      begin,
+const iso_study iso_analogue_study = {ISO_STUDY_AS("analogue", iso_analogue_request, iso_analogue_option,
+                                                   "find a ball that realises a problem of a point on a sphere"),
                                       .prepare = prepare,
                                       .run = run,
                                       .of = ISO_STUDY_USES_SCENE,

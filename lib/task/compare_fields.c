@@ -198,12 +198,7 @@ const iso_option iso_compare_option[] = {
     ISO_OPTION_END,
 };
 
-const iso_study iso_compare_study = {"compare",
-                                     "compute an orbit by every backend and show the differences",
-                                     iso_compare_option,
-                                     sizeof(iso_compare_request),
-                                     begin,
-                                     .run = run,
-                                     .of = ISO_STUDY_OF_SCENE,
-                                     .fields = iso_comparison_fields,
+const iso_study iso_compare_study = {ISO_STUDY_AS("compare", iso_compare_request, iso_compare_option,
+                                                  "compute an orbit by every backend and show the differences"),
+                                     .run = run, .of = ISO_STUDY_OF_SCENE, .fields = iso_comparison_fields,
                                      .print = iso_compare_print};

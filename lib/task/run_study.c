@@ -102,11 +102,6 @@ const iso_option iso_run_option[] = {
     ISO_OPTION_END,
 };
 
-const iso_study iso_run_study = {"run",
-                                 "compute a scene's orbit and write its trajectory",
-                                 iso_run_option,
-                                 sizeof(iso_run_request),
-                                 begin,
-                                 .run = run,
-                                 .of = ISO_STUDY_OF_SCENE | ISO_STUDY_USES_RECORD | ISO_STUDY_STREAMS,
-                                 .print = print};
+const iso_study iso_run_study = {
+    ISO_STUDY_AS("run", iso_run_request, iso_run_option, "compute a scene's orbit and write its trajectory"),
+    .run = run, .of = ISO_STUDY_OF_SCENE | ISO_STUDY_USES_RECORD | ISO_STUDY_STREAMS, .print = print};

@@ -118,10 +118,10 @@ void iso_checker_choose_observers(checker *c)
 static double off_energy(const checked_model *m, const double own[], double h)
 {
     double size;
-    iso_problem f = m->expect.problem;
+    iso_problem f = iso_orbit_model(m->orbit)->problem;
     const bool ball = m->kind == ISO_BALL;
     if (!ball) f.eps = iso_coupling(&f.p, h);
-    const double here = m->system->energy(&f, own, &size), wanted = ball ? h : m->expect.level;
+    const double here = m->system->energy(&f, own, &size), wanted = ball ? h : m->level;
     return here == wanted ? 0 : fabs(here - wanted) / fmax(size, fabs(wanted));
 }
 
@@ -136,22 +136,24 @@ iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]
 {
     const iso_units *units = iso_orbit_units(m->orbit);
     const bool ball = m->kind == ISO_BALL, level = iso_effects_have_level(&c->stated);
-    const bool any_level = !ball && !m->expect.on_level;
+    const bool any_level = !ball && !m->on_level;
     const char *what = any_level ? "h and eps of the file, against each other" : "this line, against the first row";
     double own[ISO_MAX_STATE], least = INFINITY;
+    iso_sample sample;
     iso_status status;
     const double h = iso_stated_energy(c->ctx, c->record, units, "h", &status);
     ISO_TRY(status);
     const double eps = iso_stated_energy(c->ctx, c->record, units, "eps", &status);
     const bool has_h = isfinite(h), has_eps = isfinite(eps);
     if (status != ISO_OK || !iso_orbit_has_twin(m->orbit) || (!ball && c->model[ISO_BALL].there)) return status;
-    iso_checker_own(c, &m->expect, first, own);
+    iso_sample_of_row(c->columns, first, &sample);
+    iso_orbit_state_of(m->orbit, m->system, &sample, own);
     if (any_level) { /* a free point may have any H: h and eps are compared with each other; the flow depends on eps */
         double size;
-        iso_problem f = m->expect.problem;
+        iso_problem f = iso_orbit_model(m->orbit)->problem;
         if (!has_h || !has_eps) return ISO_OK;
         f.eps = iso_coupling(&units->own, eps);
-        m->expect.level = m->system->energy(&f, own, &size);
+        m->level = m->system->energy(&f, own, &size);
     }
     if (has_h) note_line(c, m, "h", what, least = off_energy(m, own, h));
     if (has_eps) note_line(c, m, "eps", what, off_energy(m, own, any_level ? h : eps));

@@ -138,12 +138,7 @@ const iso_option iso_cost_option[] = {
     ISO_OPTION_END,
 };
 
-const iso_study iso_cost_study = {"cost",
-                                  "measure error against time for every backend, method and tolerance",
-                                  iso_cost_option,
-                                  sizeof(iso_cost_request),
-                                  begin,
-                                  .run = run,
-                                  .of = ISO_STUDY_OF_SCENE,
-                                  .print = iso_cost_print,
+const iso_study iso_cost_study = {ISO_STUDY_AS("cost", iso_cost_request, iso_cost_option,
+                                               "measure error against time for every backend, method and tolerance"),
+                                  .run = run, .of = ISO_STUDY_OF_SCENE, .print = iso_cost_print,
                                   .describe = iso_cost_describe};

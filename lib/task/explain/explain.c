@@ -329,12 +329,7 @@ static void print_explanation(FILE *to, const iso_scene *scene, const void *opti
     fputs(((const explanation *)result->found)->text, to);
 }
 
-const iso_study iso_explain_study = {"explain",
-                                     "say what would be simulated and why, without doing it",
-                                     iso_scene_change_option,
-                                     sizeof(iso_scene_request),
-                                     begin,
-                                     .run = run,
-                                     .of = ISO_STUDY_OF_SCENE,
-                                     .fields = fields,
+const iso_study iso_explain_study = {ISO_STUDY_AS("explain", iso_scene_request, iso_scene_change_option,
+                                                  "say what would be simulated and why, without doing it"),
+                                     .run = run, .of = ISO_STUDY_OF_SCENE, .fields = fields,
                                      .print = print_explanation};
