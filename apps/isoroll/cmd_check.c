@@ -1,10 +1,9 @@
 /* isoroll check - tests whether a trajectory solves its model. */
 #include "base/number_impl.h"
+#include "command.h"
 #include "json.h"
-#include "parameters.h"
 #include "stream.h"
 #include "task/check/check_impl.h"
-#include "terminal.h"
 
 typedef struct options {
     iso_check_request study;

@@ -4,7 +4,6 @@
 
 #include "command.h"
 #include "sweep/sweep_impl.h"
-#include "terminal.h"
 
 OPTIONS_OF_SCENE(iso_scene_request);
 
@@ -18,9 +17,9 @@ static int run_sweep(iso_context *ctx, const options *o)
 {
     iso_sweep_file *file;
     char *text;
-    iso_status status = changes(&o->study.change) ? iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                                                     "explain: options are for scenes, not for a "
-                                                                     "sweep, whose scene has its own")
+    iso_status status = changes(&o->study.change) ? ISO_FAIL_ARGUMENT(ctx, "",
+                                                                      "explain: options are for scenes, not for a "
+                                                                      "sweep, whose scene has its own")
                                                   : iso_sweep_read(ctx, o->shell.file, &file);
     if (status != ISO_OK) return finish(ctx, status);
     progress_begin();

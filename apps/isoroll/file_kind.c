@@ -1,4 +1,5 @@
-/* file_kind.c - tells kinds of files apart by their beginnings, and which command takes them (see file_kind.h). */
+/* file_kind.c - tells kinds of files apart by their beginnings, which command takes them, and what options add
+ * to them (see file_kind.h). */
 #include "file_kind.h"
 
 #include <fcntl.h>
@@ -8,7 +9,6 @@
 
 #include "command.h"
 #include "instrument/certify/certify_impl.h"
-#include "io/table_impl.h"
 #include "sweep/sweep_impl.h"
 
 /* --- the kind --------------------------------------------------------------------------------------------------- */
@@ -111,4 +111,14 @@ bool file_fits(const command *c, const char *path)
         complain("%s: '%s' is %s, which is for: %s", c->name, path, kinds[i].words, list);
     }
     return false;
+}
+
+/* --- options ---------------------------------------------------------------------------------------------------- */
+
+iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_record *record, iso_params *params)
+{
+    iso_scene scene;
+    const iso_status status = o->scene ? iso_scene_load(ctx, o->scene, &scene) : ISO_OK;
+    return status == ISO_OK ? iso_file_parameters_apply(ctx, &o->added, o->scene ? &scene : NULL, record, params)
+                            : status;
 }

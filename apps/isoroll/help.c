@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "command.h"
-#include "terminal.h"
 
 static int width_of(FILE *to)
 {

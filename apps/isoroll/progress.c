@@ -11,7 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "terminal.h"
+#include "report.h"
 
 enum { WIDTH = 40, LINE = 80, WORDS = 32 /* the percentage, and the times */ };
 

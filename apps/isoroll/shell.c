@@ -5,7 +5,6 @@
 
 #include "base/record_impl.h"
 #include "command.h"
-#include "terminal.h"
 
 static void show_note(void *data, const char *text)
 {
@@ -31,8 +30,8 @@ static iso_status prepare(shell *s, const shell_parts *parts, iso_table_writer *
     if (parts->check)
         ISO_TRY(parts->check(s));
     else if (o->json && prints_table(s))
-        return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "output",
-                                "%s: -o - and --json both write to standard output: choose one", s->study->name);
+        return ISO_FAIL_ARGUMENT(s->ctx, "output", "%s: -o - and --json both write to standard output: choose one",
+                                 s->study->name);
     ISO_TRY(iso_plot_check_page(s->ctx, &o->plot));
     ISO_TRY(iso_scene_load(s->ctx, o->file, &s->scene));
     if (parts->change) ISO_TRY(parts->change(s));

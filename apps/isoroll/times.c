@@ -45,15 +45,14 @@ static iso_status read_words(iso_context *ctx, const char *name, FILE *file, iso
     double time;
     while ((length = next_word(file, word, &at)) > 0) {
         if (!iso_number_read(word, length, &time))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                    "%s:%d:%d: '%.40s' is not a time: expected a finite number", name, at.line,
-                                    at.column, word);
+            return ISO_FAIL_INPUT(ctx, "", "%s:%d:%d: '%.40s' is not a time: expected a finite number", name, at.line,
+                                  at.column, word);
         ISO_TRY(iso_record_add(ctx, times, 1, &time));
         at.column += (int)length;
     }
     if (ferror(file)) return iso_file_trouble(ctx, "read", name);
     if (iso_record_rows(times) > 0) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s:1:1: no times in this file: expected numbers", name);
+    return ISO_FAIL_INPUT(ctx, "", "%s:1:1: no times in this file: expected numbers", name);
 }
 
 iso_status times_read(iso_context *ctx, const char *path, iso_record **times)

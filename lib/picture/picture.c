@@ -58,8 +58,8 @@ static iso_status check_options(iso_context *ctx, const iso_picture_request *q, 
         const int length = (int)strcspn(line, "=\n");
         snprintf(name, sizeof name, " %.*s ", length, line);
         if (length > 0 && m->options && strstr(m->options, name)) continue;
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "options", "--%.*s is not for a picture of a table '%s'",
-                                length, line, m->kind);
+        return ISO_FAIL_ARGUMENT(ctx, "options", "--%.*s is not for a picture of a table '%s'", length, line,
+                                 m->kind);
     }
     return ISO_OK;
 }

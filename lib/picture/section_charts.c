@@ -51,12 +51,12 @@ iso_status iso_picture_charts_options(iso_context *ctx, const iso_picture_reques
     double points;
     c->windowed = iso_picture_option(q, "window", text);
     if (c->windowed && !iso_picture_window(text, c->window))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "window",
-                                "window '%s': expected two ranges such as 0.5:1.2,-0.3:0.3, l up to pi and x up to 1",
-                                text);
+        return ISO_FAIL_ARGUMENT(
+            ctx, "window", "window '%s': expected two ranges such as 0.5:1.2,-0.3:0.3, l up to pi and x up to 1",
+            text);
     if (!iso_picture_option(q, "points", text)) return ISO_OK;
     if (!iso_number_read(text, strlen(text), &points) || !(points >= 1 && points <= 1e9))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "points", "points '%s': expected a number of points", text);
+        return ISO_FAIL_ARGUMENT(ctx, "points", "points '%s': expected a number of points", text);
     c->points = (size_t)points;
     return ISO_OK;
 }

@@ -289,7 +289,7 @@ static iso_status look_around(iso_context *ctx, const iso_record *r, const doubl
     }
     if (up) copy(up, s->axis[UP], 3);
     if (!(fabs(norm(s->axis[UP]) - 1) <= ALIKE))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "up", "a picture of space: up is no unit vector");
+        return ISO_FAIL_ARGUMENT(ctx, "up", "a picture of space: up is no unit vector");
     choose_directions(s, normal);
     return ISO_OK;
 }

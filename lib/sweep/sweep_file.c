@@ -17,6 +17,62 @@
 
 enum { MOST_QUANTITIES = 32 };
 
+/* --- settings --------------------------------------------------------------------------------------------------- */
+
+/* The keys of a mapping must be among `names`, each once. Errors: ISO_BAD_INPUT. */
+static iso_status check_keys(iso_yaml *y, const yaml_node_t *mapping, const char *what, size_t count,
+                             const char *const names[])
+{
+    if (mapping->type != YAML_MAPPING_NODE) return iso_yaml_expected(y, mapping, what, "a mapping");
+    size_t i;
+    for (const yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < mapping->data.mapping.pairs.top; p++)
+        ISO_TRY(iso_yaml_key(y, mapping, iso_yaml_node(y, p->key), "key", count, names, &i));
+    return ISO_OK;
+}
+
+static iso_status read_setting(iso_yaml *y, const yaml_node_t *node, const iso_sweep_setting *s, double *value)
+{
+    bool flag = false;
+    int word;
+    if (s->word) {
+        ISO_TRY(iso_yaml_word(y, node, s->name, s->word, ~0u, &word));
+        return *value = word, ISO_OK;
+    }
+    const iso_status status =
+        s->flag ? iso_yaml_flag(y, node, s->name, &flag) : iso_yaml_number(y, node, s->name, value);
+    if (s->flag) *value = flag;
+    const bool fits = s->least == s->most || (*value >= s->least && *value <= s->most);
+    if (status != ISO_OK || (fits && (!s->whole || *value == floor(*value)))) return status;
+    return iso_yaml_fail(y, node->start_mark, "'%s' is %s, it must be %sfrom %s to %s", s->name, ISO_SHORT(*value),
+                         s->whole ? "a whole number " : "", ISO_SHORT(s->least), ISO_SHORT(s->most));
+}
+
+/* Reads those of its keys that are settings. */
+static iso_status read_settings(iso_yaml *y, const yaml_node_t *mapping, const iso_sweep_setting settings[],
+                                double value[])
+{
+    iso_status status = ISO_OK;
+    for (const iso_sweep_setting *s = settings; s && s->name && status == ISO_OK; s++, value++) {
+        const yaml_node_t *node;
+        *value = s->usual;
+        if (iso_yaml_find(y, mapping, s->name, NULL, &node))
+            status = read_setting(y, node, s, value);
+        else if (s->missing)
+            status = iso_yaml_fail(y, mapping->start_mark, "missing '%s' in %s", s->name, s->missing);
+    }
+    return status;
+}
+
+iso_status iso_sweep_read_mapping(iso_yaml *y, const yaml_node_t *mapping, const char *what,
+                                  const iso_sweep_setting settings[], double value[])
+{
+    const char *names[ISO_SWEEP_SETTINGS];
+    size_t count = 0;
+    for (const iso_sweep_setting *s = settings; s && s->name; s++) names[count++] = s->name;
+    ISO_TRY(check_keys(y, mapping, what, count, names));
+    return read_settings(y, mapping, settings, value);
+}
+
 /* --- the scene -------------------------------------------------------------------------------------------------- */
 
 static iso_status load_scene_file(iso_context *ctx, iso_sweep_file *f, const yaml_node_t *node)
@@ -129,7 +185,7 @@ static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
     size_t count = 0;
     iso_yaml *y = &f->yaml;
     for (; count < MOST_QUANTITIES && iso_sweep_quantity_at((int)count, &q); count++) names[count] = q.name;
-    iso_status status = iso_sweep_check_keys(y, measure, "measure", count, names);
+    iso_status status = check_keys(y, measure, "measure", count, names);
     if (status != ISO_OK) return status;
     const yaml_node_pair_t *end = measure->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = measure->data.mapping.pairs.start; p < end && status == ISO_OK; p++) {
@@ -217,7 +273,7 @@ static ISO_NAMES(kind_of_vectors, int, "avx512", "avx2", "plain")
     double value[2];
     if (root->type != YAML_MAPPING_NODE)
         return iso_yaml_expected(&f->yaml, root, "sweep", "a mapping with scene, vary and measure");
-    ISO_TRY(iso_sweep_check_keys(&f->yaml, root, "sweep", sizeof names / sizeof *names, names));
+    ISO_TRY(check_keys(&f->yaml, root, "sweep", sizeof names / sizeof *names, names));
     for (int i = 0; i < 5; i++)
         if (!iso_yaml_find(&f->yaml, root, names[i], NULL, &node[i]) && i < 3)
             return ISO_FAIL_AT(f, root, "missing '%s' in the sweep", names[i]);
@@ -226,7 +282,7 @@ static ISO_NAMES(kind_of_vectors, int, "avx512", "avx2", "plain")
     ISO_TRY(read_measure(f, node[2]));
     if (node[3]) ISO_TRY(read_until(f, node[3]));
     ISO_TRY(check_used(f, node[1]));
-    ISO_TRY(iso_sweep_read_settings(&f->yaml, root, settings, value));
+    ISO_TRY(read_settings(&f->yaml, root, settings, value));
     f->plan.chunk = (size_t)value[0];
     if (!isnan(value[1])) strcpy(f->plan.vectors, kind_of_vectors((int)value[1]));
     /* The reason of a point that fails is part of the result, whose bytes do not depend on the folder or on the path

@@ -82,17 +82,17 @@ static iso_status prepare(iso_context *ctx, void *options)
     const iso_analogue_problem *p = &((const iso_analogue_request *)options)->problem;
     const bool neumann = !isnan(p->c[0]), k = !isnan(p->k), J = !isnan(p->J[0]), eps = !isnan(p->eps);
     if (neumann && (k || J || eps))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "neumann",
-                                "analogue: --neumann has k = -1 and needs no --k, --J or --eps: leave them out");
+        return ISO_FAIL_ARGUMENT(ctx, "neumann",
+                                 "analogue: --neumann has k = -1 and needs no --k, --J or --eps: leave them out");
     if (!neumann && (k || J || eps) && !(k && J && eps)) {
         const char *missing = !k ? "k" : !J ? "J" : "eps";
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, missing,
-                                "analogue: --%s is missing: a problem is --k, --J and --eps, or --neumann", missing);
+        return ISO_FAIL_ARGUMENT(ctx, missing,
+                                 "analogue: --%s is missing: a problem is --k, --J and --eps, or --neumann", missing);
     }
     if (!neumann && !k && !isnan(p->energy))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "energy",
-                                "analogue: --energy needs --neumann or --k, --J and --eps; a scene's start has its "
-                                "own");
+        return ISO_FAIL_ARGUMENT(ctx, "energy",
+                                 "analogue: --energy needs --neumann or --k, --J and --eps; a scene's start has its "
+                                 "own");
     return ISO_OK;
 }
 
@@ -103,9 +103,9 @@ static iso_status state(iso_context *ctx, const iso_scene *scene, const iso_anal
     const bool stated = iso_analogue_is_stated(r);
     iso_analogue_problem p = r->problem;
     if (stated == (scene != NULL))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scene",
-                                stated ? "analogue: a scene and a problem in options: leave one of them out"
-                                       : "analogue needs a scene, or a problem in options");
+        return ISO_FAIL_ARGUMENT(ctx, "scene",
+                                 stated ? "analogue: a scene and a problem in options: leave one of them out"
+                                        : "analogue needs a scene, or a problem in options");
     p.neumann = !isnan(p.c[0]);
     if (isnan(p.energy)) p.energy = 0;
     if (scene) ISO_TRY(iso_analogue_problem_of(ctx, scene, &p, point));
@@ -144,12 +144,6 @@ static const iso_field fields[] = {
     ISO_FIELD_END,
 };
 
-static void free_found(void *found)
-{
-    free((char *)((iso_analogue_found *)found)->text);
-    free(found);
-}
-
 static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result)
 {
@@ -157,7 +151,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     double point[ISO_STATE], end = 0;
     iso_memory memory;
     iso_scene scene;
-    iso_analogue_found *f = iso_study_keep(result, calloc(1, sizeof *f), fields, free_found);
+    iso_analogue_found *f = iso_study_keep(result, calloc(1, sizeof *f), fields, free);
     if (!f) return iso_context_no_memory(ctx, "a ball");
     ISO_TRY(state(ctx, of, options, &f->analogue, point, &end));
     f->ball = f->analogue.has_body ? f->analogue.body : f->analogue.reduced;
@@ -166,7 +160,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     if (of && of->step > 0 && end != 0) scene.step = fabs(scene.end) / (fabs(end) / of->step);
     FILE *to = iso_memory_open(&memory);
     if (to) report(to, &f->analogue, of, &scene);
-    f->text = iso_memory_close(to, &memory);
+    f->text = result->text = iso_memory_close(to, &memory);
     if (!f->text) return iso_context_no_memory(ctx, "words");
     return iso_study_table(ctx, "analogue", &scene, fields, f, NULL, &result->table[0]);
 }
@@ -188,16 +182,6 @@ const iso_option iso_analogue_option[] = {
     ISO_OPTION_END,
 };
 
-static void print_found(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
-{
-    (void)scene, (void)options;
-    fputs(((const iso_analogue_found *)result->found)->text, to);
-}
-
 const iso_study iso_analogue_study = {ISO_STUDY_AS("analogue", iso_analogue_request, iso_analogue_option,
                                                    "find a ball that realises a problem of a point on a sphere"),
-                                      .prepare = prepare,
-                                      .run = run,
-                                      .of = ISO_STUDY_USES_SCENE,
-                                      .fields = fields,
-                                      .print = print_found};
+                                      .prepare = prepare, .run = run, .of = ISO_STUDY_USES_SCENE, .fields = fields};

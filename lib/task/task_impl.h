@@ -72,7 +72,7 @@ bool iso_analogue_is_stated(const iso_analogue_request *request);
 typedef struct iso_analogue_found {
     iso_analogue analogue;
     iso_analogue_ball ball;
-    const char *text; /* the scene of the ball, with a report in # lines; it is freed with the rest */
+    const char *text; /* the scene of the ball, with a report in # lines: the text of the result */
 } iso_analogue_found;
 
 /* What it tells people, and the lines of its table (compare_print.c). */

@@ -13,7 +13,7 @@
 
 #include <jansson.h>
 
-#include "parameters.h"
+#include "command.h"
 
 /* Bounds that keep a page below 3 MB. In base64 a number takes 10.7 bytes. */
 enum {

@@ -14,14 +14,14 @@
 iso_status view_check_build(iso_context *ctx, bool live)
 {
     if (live && !embedded_find(view_files, "library")->name)
-        return iso_context_fail(
-            ctx, ISO_BAD_ARGUMENT, "",
+        return ISO_FAIL_ARGUMENT(
+            ctx, "",
             "this isoroll was built without the library as WebAssembly, which --live needs: install "
             "emscripten and node-acorn, get sources with apps/live/sources.sh, and build again");
     if (embedded_find(view_files, "three")->length > 0) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                            "this isoroll was built without three.js, which a page needs: install it (package "
-                            "libjs-three) and build again, or build with cmake -DISO_THREE_JS=three.min.js");
+    return ISO_FAIL_ARGUMENT(ctx, "",
+                             "this isoroll was built without three.js, which a page needs: install it (package "
+                             "libjs-three) and build again, or build with cmake -DISO_THREE_JS=three.min.js");
 }
 
 /* Writes a piece of the JSON text. It has <, > and & only in its strings, where they may be escaped. */

@@ -22,7 +22,7 @@ typedef struct explanation {
     bool twin;
     const char *integrability;
     size_t rows;
-    const char *text; /* freed with the rest */
+    const char *text; /* that of the result */
 } explanation;
 
 /* --- the text --------------------------------------------------------------------------------------------------- */
@@ -286,50 +286,31 @@ static const iso_field fields[] = {
     ISO_FIELD_END,
 };
 
-static void free_explanation(void *found)
-{
-    free((char *)((explanation *)found)->text);
-    free(found);
-}
-
-static iso_status fill(iso_context *ctx, const iso_scene *scene, explanation *e)
-{
-    iso_orbit *orbit;
-    int columns[ISO_MAX_COLUMNS];
-    iso_memory memory;
-    const int count = iso_scene_column_list(scene, columns);
-    ISO_TRY(iso_scene_orbit(ctx, scene, columns, count, &orbit));
-    *e = (explanation){.backend = iso_backend_name((int)iso_orbit_backend(orbit)),
-                       .method = iso_orbit_exact(orbit) ? NULL : iso_orbit_method(orbit)->name,
-                       .twin = iso_orbit_has_twin(orbit),
-                       .integrability = iso_integrability_name(integrability_of(scene, orbit).kind),
-                       .rows = iso_scene_rows(scene)};
-    FILE *to = iso_memory_open(&memory);
-    iso_status status = to ? explain(ctx, to, scene, orbit, columns, count) : ISO_OK;
-    e->text = iso_memory_close(to, &memory);
-    if (!e->text) status = iso_context_no_memory(ctx, "words");
-    iso_orbit_free(orbit);
-    return status;
-}
-
 static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result)
 {
     iso_scene scene = *subject->scene;
-    explanation *e = iso_study_keep(result, calloc(1, sizeof *e), fields, free_explanation);
+    iso_orbit *orbit;
+    int columns[ISO_MAX_COLUMNS];
+    iso_memory memory;
+    explanation *e = iso_study_keep(result, calloc(1, sizeof *e), fields, free);
     if (!e) return iso_context_no_memory(ctx, "words");
     ISO_TRY(iso_scene_apply(ctx, &((const iso_scene_request *)options)->change, &scene));
-    ISO_TRY(fill(ctx, &scene, e));
-    return iso_study_table(ctx, "explain", &scene, fields, e, NULL, &result->table[0]);
-}
-
-static void print_explanation(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
-{
-    (void)scene, (void)options;
-    fputs(((const explanation *)result->found)->text, to);
+    const int count = iso_scene_column_list(&scene, columns);
+    ISO_TRY(iso_scene_orbit(ctx, &scene, columns, count, &orbit));
+    *e = (explanation){.backend = iso_backend_name((int)iso_orbit_backend(orbit)),
+                       .method = iso_orbit_exact(orbit) ? NULL : iso_orbit_method(orbit)->name,
+                       .twin = iso_orbit_has_twin(orbit),
+                       .integrability = iso_integrability_name(integrability_of(&scene, orbit).kind),
+                       .rows = iso_scene_rows(&scene)};
+    FILE *to = iso_memory_open(&memory);
+    iso_status status = to ? explain(ctx, to, &scene, orbit, columns, count) : ISO_OK;
+    e->text = result->text = iso_memory_close(to, &memory);
+    iso_orbit_free(orbit);
+    if (!e->text) return iso_context_no_memory(ctx, "words");
+    return status == ISO_OK ? iso_study_table(ctx, "explain", &scene, fields, e, NULL, &result->table[0]) : status;
 }
 
 const iso_study iso_explain_study = {ISO_STUDY_AS("explain", iso_scene_request, iso_scene_change_option,
                                                   "say what would be simulated and why, without doing it"),
-                                     .run = run, .of = ISO_STUDY_OF_SCENE, .fields = fields,
-                                     .print = print_explanation};
+                                     .run = run, .of = ISO_STUDY_OF_SCENE, .fields = fields};
