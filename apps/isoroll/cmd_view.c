@@ -78,20 +78,15 @@ static bool has_own_scene(const options *o)
     return o->live && strcmp(o->from.file, "-") == 0;
 }
 
-/* The laboratory has these effects alone (view/forces.js). */
-static bool is_in_laboratory(int effect)
-{
-    return effect == ISO_ATTITUDE || effect == ISO_LEVEL || effect == ISO_ROTOR || effect == ISO_GRAVITY;
-}
-
+/* The laboratory has a few effects alone (view/forces.js). */
 static iso_status check_live(iso_context *ctx, const view_page *page)
 {
-    for (int i = 0; page->live && i < ISO_EFFECTS; i++)
-        if (page->effects.on[i] && !is_in_laboratory(i))
-            return ISO_FAIL_INPUT(ctx, iso_effect_list[i]->name,
+    for (int e = 0; page->live && e < ISO_EFFECTS; e++)
+        if (page->effects.on[e] && e != ISO_ATTITUDE && e != ISO_LEVEL && e != ISO_ROTOR && e != ISO_GRAVITY)
+            return ISO_FAIL_INPUT(ctx, iso_effect_list[e]->name,
                                   "--live computes with level, rotor and gravity, and the scene has '%s': take it "
                                   "out, or leave out --live",
-                                  iso_effect_list[i]->name);
+                                  iso_effect_list[e]->name);
     return ISO_OK;
 }
 

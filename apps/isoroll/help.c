@@ -49,22 +49,19 @@ void help_command(const command *c, FILE *to)
     print_lines(c->exits, 2, to);
 }
 
-static void print_command(const command *c, FILE *to)
-{
-    char line[512];
-    snprintf(line, sizeof line, "  %-11s  %-9s  %s", c->name, c->argument, command_doc(c));
-    iso_fold_line(to, line, strlen(line), width_of(to));
-}
-
 void help_program(FILE *to)
 {
     const command *const *c = commands;
+    char line[512];
     print_lines(about_isoroll, 0, to);
     print_lines("\nusage: isoroll COMMAND [options] [SCENE or FILE]      - is standard input or output", 0, to);
     for (int g = 0; command_groups[g].title; g++) {
         fputc('\n', to);
         print_lines(command_groups[g].title, 0, to);
-        for (int i = 0; i < command_groups[g].count; i++) print_command(*c++, to);
+        for (int i = 0; i < command_groups[g].count; i++, c++) {
+            snprintf(line, sizeof line, "  %-11s  %-9s  %s", (*c)->name, (*c)->argument, command_doc(*c));
+            iso_fold_line(to, line, strlen(line), width_of(to));
+        }
     }
     print_lines("isoroll help COMMAND       the options of a command, as isoroll COMMAND --help\n"
                 "isoroll --version          the versions of isoroll and its libraries\n",

@@ -40,7 +40,8 @@ json_t *json_text(const char *text)
     return made;
 }
 
-json_t *json_columns(const iso_record *r)
+/* All columns of a record. */
+static json_t *columns_of(const iso_record *r)
 {
     json_t *o = json_object();
     for (size_t c = 0; c < iso_record_columns(r); c++) {
@@ -124,7 +125,7 @@ static json_t *member_of(const iso_field *f, const void *row)
     }
     if (!iso_field_is_there(f, row)) return json_null();
     if (f->type == ISO_FIELD_RECORD)
-        return json_columns(*(iso_record *const *)(const void *)((const char *)row + f->offset));
+        return columns_of(*(iso_record *const *)(const void *)((const char *)row + f->offset));
     if (f->type != ISO_FIELD_LIST) return values_of(f, row);
     json_t *list = json_array();
     const void *item;

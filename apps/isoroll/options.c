@@ -124,15 +124,6 @@ static options_result wrong_long(const command *c, const char *text)
     return complain("%s: unknown option %s; did you mean '--%s'?", c->name, text, near), OPTIONS_WRONG;
 }
 
-/* The row of what getopt_long found: LONG + its index, or its letter. */
-static const option_row *found_row(const command *c, int found)
-{
-    if (found >= LONG) return options_row(c, found - LONG);
-    int i = 0;
-    while (options_row(c, i)->letter != found) i++;
-    return options_row(c, i);
-}
-
 /* What getopt_long is given: the long names, and the letters after the colon that makes it silent. --csv is a
  * second name of --output. */
 static void make_known(const command *c, struct option known[MOST_ROWS + 2], char letters[2 * MOST_ROWS])
@@ -253,7 +244,9 @@ options_result options_read(const command *c, int argc, char **argv, void *optio
         if (found == '?' && optopt > 0 && optopt < LONG)
             return wrong(c, "unknown option ", (char[]){'-', (char)optopt, '\0'});
         if (found == '?') return wrong_long(c, argv[optind - 1]);
-        const option_row *r = found_row(c, found);
+        int i = found >= LONG ? found - LONG : 0; /* of a letter it is sought */
+        while (found < LONG && options_row(c, i)->letter != found) i++;
+        const option_row *r = options_row(c, i);
         if (r == &help_row)
             help = true;
         else if (!set_option(c, r, optarg, options))

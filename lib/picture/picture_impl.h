@@ -138,7 +138,7 @@ iso_status iso_picture_add_chart(iso_context *ctx, iso_picture *picture, const c
 iso_status iso_picture_add_curves(iso_context *ctx, iso_picture *picture);
 
 /* The curve of a splitting with slope m and multiplier lambda (iso_separatrix_curve), with as many half returns beyond
- * the crossing as are needed to see the lobes (section_over.c). */
+ * the crossing as are needed to see the lobes (section.c). */
 iso_status iso_picture_separatrix(iso_context *ctx, double k, const double J[3], double level, double m,
                                   double lambda, iso_record **curve);
 

@@ -252,24 +252,11 @@ static iso_status add_side(iso_context *ctx, const iso_picture_charts *c, const 
                       : iso_picture_say(ctx, picture, key[3], "x = M%s / |M|", index[0]);
 }
 
-/* The scale of the rotation numbers; nothing: there are none, or the colours are hues. */
-static iso_status say_range(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings,
-                            iso_picture *picture)
-{
-    double low = INFINITY, high = -INFINITY;
-    for (size_t i = 0; !c->few && i < iso_record_rows(crossings); i++) {
-        const double *row = iso_record_const_row(crossings, i), x = row[ISO_PICTURE_COLOUR];
-        if (row[ISO_PICTURE_SHADE] == ISO_PICTURE_COLOURED) low = fmin(low, x), high = fmax(high, x);
-    }
-    const bool bar = low <= high;
-    if (bar && high - low < 1e-3) low -= 5e-4, high += 5e-4;
-    return iso_picture_set(ctx, picture, "bar low high", (double[]){bar, bar ? low : 0, bar ? high : 1});
-}
-
 iso_status iso_picture_charts_add(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings,
                                   iso_picture *picture)
 {
     iso_record *boundary, **spots[2]; /* the ball's, the point's */
+    double low = INFINITY, high = -INFINITY;
     frame f[2];
     bool image = false;
     for (int i = 0; i < 2; i++) {
@@ -280,7 +267,13 @@ iso_status iso_picture_charts_add(iso_context *ctx, const iso_picture_charts *c,
     }
     for (int i = 0; i < 2; i++) ISO_TRY(add_side(ctx, c, &f[i], *spots[i], i == 0, image, picture));
     ISO_TRY(iso_picture_set(ctx, picture, "images window few", (double[]){image, c->windowed, c->few}));
-    ISO_TRY(say_range(ctx, c, crossings, picture));
+    for (size_t i = 0; !c->few && i < iso_record_rows(crossings); i++) { /* the scale of the rotation numbers */
+        const double *row = iso_record_const_row(crossings, i), x = row[ISO_PICTURE_COLOUR];
+        if (row[ISO_PICTURE_SHADE] == ISO_PICTURE_COLOURED) low = fmin(low, x), high = fmax(high, x);
+    }
+    const bool bar = low <= high; /* else there are none, or the colours are hues */
+    if (bar && high - low < 1e-3) low -= 5e-4, high += 5e-4;
+    ISO_TRY(iso_picture_set(ctx, picture, "bar low high", (double[]){bar, bar ? low : 0, bar ? high : 1}));
     ISO_TRY(iso_picture_add(ctx, picture, "boundary", "l low high", &boundary));
     for (int i = 0; i <= BOUNDARY; i++) {
         const double l = M_PI * (2.0 * i / BOUNDARY - 1), G = largest_momentum(c, l);

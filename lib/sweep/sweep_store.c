@@ -197,22 +197,6 @@ void iso_sweep_store_close(iso_sweep_store *s)
 
 /* --- adding and finishing --------------------------------------------------------------------------------------- */
 
-/* Keeps a copy of a chunk until its turn comes. */
-static iso_status keep_early(iso_context *ctx, iso_sweep_store *s, const iso_sweep_rows *rows)
-{
-    iso_sweep_rows copy, *more = realloc(s->early, (s->waiting + 1) * sizeof *more);
-    if (!more) return iso_context_no_memory(ctx, "chunks of a sweep");
-    s->early = more;
-    ISO_TRY(iso_sweep_rows_create(ctx, rows->columns, rows->most, &copy));
-    memcpy(copy.number, rows->number, iso_sweep_rows_bytes(rows));
-    copy.first = rows->first;
-    copy.count = rows->count;
-    size_t i = s->waiting++;
-    for (; i > 0 && more[i - 1].first > rows->first; i--) more[i] = more[i - 1];
-    more[i] = copy;
-    return ISO_OK;
-}
-
 /* Writes the chunks whose turn it is, or all. Each one reaches the file: a program that is killed loses those that are
  * computed, and those that wait. */
 static iso_status write_early(iso_context *ctx, iso_sweep_store *s, bool all)
@@ -230,9 +214,19 @@ static iso_status write_early(iso_context *ctx, iso_sweep_store *s, bool all)
     return status;
 }
 
+/* Keeps a copy of the chunk until its turn comes. */
 iso_status iso_sweep_store_add(iso_context *ctx, iso_sweep_store *s, const iso_sweep_rows *rows)
 {
-    ISO_TRY(keep_early(ctx, s, rows));
+    iso_sweep_rows copy, *more = realloc(s->early, (s->waiting + 1) * sizeof *more);
+    if (!more) return iso_context_no_memory(ctx, "chunks of a sweep");
+    s->early = more;
+    ISO_TRY(iso_sweep_rows_create(ctx, rows->columns, rows->most, &copy));
+    memcpy(copy.number, rows->number, iso_sweep_rows_bytes(rows));
+    copy.first = rows->first;
+    copy.count = rows->count;
+    size_t i = s->waiting++;
+    for (; i > 0 && more[i - 1].first > rows->first; i--) more[i] = more[i - 1];
+    more[i] = copy;
     return write_early(ctx, s, false);
 }
 

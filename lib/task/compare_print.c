@@ -98,10 +98,7 @@ static void print_integrals(FILE *to, const iso_comparison *c)
         const iso_drift *d = &c->run[ISO_BALL].drift[i];
         fprintf(to, "%s\t%s\t%.9g", d->system->name, d->integral->name, d->start);
         for (int b = 0; b < c->runs; b++)
-            if (i < c->run[b].drifts)
-                fprintf(to, "\t%.1e", c->run[b].drift[i].worst);
-            else
-                fputs("\t-", to);
+            fprintf(to, i < c->run[b].drifts ? "\t%.1e" : "\t-", c->run[b].drift[i].worst);
         fprintf(to, "\t%s\n", d->integral->doc);
     }
     iso_table_end(to);

@@ -169,12 +169,6 @@ static void give_up(measurer *m, const iso_cost_series *series, int from)
              ISO_SHORT(m->tolerance[from - 1]));
 }
 
-/* The time that the least number of repeats takes. Short runs are run once before, and several are timed at once. */
-static double repeats_of(double about)
-{
-    return LEAST_REPEATS * (about < MOMENT ? 2 * about + MOMENT / 10 : about);
-}
-
 /* How long the next of `left` cells may run. */
 static double share_of(const measurer *m, int left)
 {
@@ -193,8 +187,10 @@ static void check_cells(measurer *m, double about[])
             const iso_cost_series *series = &m->out->series[l];
             if (i >= series->count || !alive[l]) continue;
             iso_cost_cell *cell = &m->out->cell[series->first + i];
-            check_cell(m, cell, share_of(m, left--), &about[series->first + i]);
-            if (cell->status == ISO_OK) m->promised += repeats_of(about[series->first + i]);
+            double *took = &about[series->first + i];
+            check_cell(m, cell, share_of(m, left--), took);
+            if (cell->status == ISO_OK) /* short runs are run once before, and several are timed at once */
+                m->promised += LEAST_REPEATS * (*took < MOMENT ? 2 * *took + MOMENT / 10 : *took);
             report_progress(m, cell->method ? cell->method->name : "exact");
             if (cell->status != ISO_STOPPED || iso_cost_is_stopped(&m->p)) continue;
             alive[l] = false;
@@ -230,18 +226,6 @@ static void time_cells(measurer *m, const double about[])
             open++;
             report_progress(m, "times");
         }
-    }
-}
-
-/* Where a stop leaves a cell without a time, it gets the time of the run that gave its error, with set-up. */
-static void keep_first_runs(measurer *m, const double about[])
-{
-    for (int i = 0; i < m->out->cells; i++) {
-        cost_times *times = &m->times[i];
-        if (m->out->cell[i].status != ISO_OK || times->count > 0) continue;
-        times->count = 1;
-        times->setup[0] = 0;
-        times->stepping[0] = about[i];
     }
 }
 
@@ -285,9 +269,13 @@ static iso_status measure(measurer *m)
     if (!about) return iso_context_no_memory(m->p.user, "the cells");
     check_cells(m, about);
     time_cells(m, about);
-    keep_first_runs(m, about);
+    for (int i = 0; i < c->cells; i++) {
+        cost_times *times = &m->times[i];
+        /* a stop leaves it without a time: it gets that of the run that gave its error, with set-up */
+        if (c->cell[i].status == ISO_OK && times->count == 0) times->count = 1, times->stepping[0] = about[i];
+        iso_cost_times_read(times, &c->cell[i]);
+    }
     free(about);
-    for (int i = 0; i < c->cells; i++) iso_cost_times_read(&m->times[i], &c->cell[i]);
     iso_cost_judge(c);
     c->complete = !iso_cost_is_stopped(&m->p);
     return c->complete ? ISO_OK : iso_context_stopped(m->p.user);

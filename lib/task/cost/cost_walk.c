@@ -99,13 +99,6 @@ void iso_cost_track_free(cost_track *track)
     track->row = NULL;
 }
 
-/* Whether the whole track will take longer, judged by the time that the part so far took. */
-static bool looks_longer(const cost_track *track, double took, double seconds)
-{
-    const double share = track->time[track->reached - 1] / track->time[track->times - 1];
-    return took > seconds / 8 && share > 0 && took / share > 1.5 * seconds;
-}
-
 static iso_status walk(cost_problem *p, iso_orbit *orbit, double seconds, cost_track *track)
 {
     iso_sample sample;
@@ -122,7 +115,9 @@ static iso_status walk(cost_problem *p, iso_orbit *orbit, double seconds, cost_t
         track->row[i].clock = sample.clock[p->other];
         track->reached++;
         iso_watch_follow(orbit, &sample, integral, integrals);
-        if (i + 1 < track->times && looks_longer(track, track->seconds, seconds)) status = ISO_STOPPED;
+        const double share = track->time[i] / track->time[track->times - 1]; /* of the whole, judged by which ... */
+        const bool long_enough = i + 1 < track->times && share > 0 && track->seconds > seconds / 8;
+        if (long_enough && track->seconds / share > 1.5 * seconds) status = ISO_STOPPED; /* ... it takes longer */
     }
     track->energy_drift = track->constraint_drift = NAN;
     for (int i = 0; i < integrals; i++) {

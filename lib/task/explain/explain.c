@@ -87,13 +87,6 @@ static iso_integrability integrability_of(const iso_scene *scene, const iso_orbi
     return iso_integrability_of(&scene->params, &effects, false); /* the level is an effect here */
 }
 
-/* Says which Poincare section (`isoroll section`) is global for this orbit. */
-static void explain_section(FILE *to, const iso_orbit *orbit)
-{
-    const iso_section_nature n = iso_section_of(orbit, ISO_AXIS_AUTO);
-    if (iso_orbit_has_twin(orbit) || iso_orbit_energy(orbit) != 0) fprintf(to, "section\n  %s\n\n", n.words);
-}
-
 /* What the closed solution is, or in `why` why `run --backend exact` cannot compute these columns: then *kind is NULL.
  * Errors: ISO_NO_MEMORY. */
 static iso_status find_exact(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
@@ -257,7 +250,8 @@ static iso_status explain(iso_context *ctx, FILE *to, const iso_scene *scene, co
     explain_effects(to, orbit);
     explain_map(to, &scene->params, orbit);
     fprintf(to, "integrability\n  %s: %s\n\n", iso_integrability_name(integrable.kind), integrable.why);
-    explain_section(to, orbit);
+    if (iso_orbit_has_twin(orbit) || iso_orbit_energy(orbit) != 0)
+        fprintf(to, "section\n  %s\n\n", iso_section_of(orbit, ISO_AXIS_AUTO).words);
     fprintf(to, "closed solution (--backend exact)\n  %s%s\n\n", kind ? "any time at the same cost: " : "",
             kind ? kind : why);
     explain_states(to, scene, orbit, columns, count);

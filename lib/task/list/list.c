@@ -106,14 +106,6 @@ static void list_numbers(FILE *to, const iso_effect *effect)
     if (effect->numbers) fprintf(to, "\n");
 }
 
-/* Whether a point has it, and how its scenes call it. */
-static void list_image(FILE *to, const iso_effect *effect)
-{
-    const char *broken = iso_effect_why_broken(effect), *name = effect->point_name;
-    fprintf(to, "  %-22s isomorphism: %s%s%s%s%s\n", "", broken ? "lost, " : "kept", broken ? broken : "",
-            name ? "; a scene of a point calls it '" : "", name ? name : "", name ? "'" : "");
-}
-
 static void list_effects(FILE *to)
 {
     for (int e = 0; e < ISO_EFFECTS; e++) {
@@ -121,7 +113,9 @@ static void list_effects(FILE *to)
         fprintf(to, "  %-22s %s\n", effect->name, effect->doc);
         list_numbers(to, effect);
         if (effect->states) fprintf(to, "  %-22s states: %s\n", "", effect->states_doc);
-        list_image(to, effect);
+        const char *broken = iso_effect_why_broken(effect), *name = effect->point_name; /* of a scene of a point */
+        fprintf(to, "  %-22s isomorphism: %s%s%s%s%s\n", "", broken ? "lost, " : "kept", broken ? broken : "",
+                name ? "; a scene of a point calls it '" : "", name ? name : "", name ? "'" : "");
     }
 }
 
