@@ -15,16 +15,6 @@ static const char *page_word(int i)
     return i < 3 ? first[i] : command_word(i - 3);
 }
 
-static void print_page(const char *name, FILE *to)
-{
-    if (strcmp(name, "isoroll") == 0)
-        manual_program(to);
-    else if (command_find(name))
-        manual_command(command_find(name), to);
-    else
-        fputs(strcmp(name, "bash") == 0 ? complete_bash : complete_zsh, to);
-}
-
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
@@ -39,7 +29,12 @@ static int run(iso_context *ctx, const void *options_given)
     }
     const iso_status status = iso_output_open(ctx, o->output, &output);
     if (status != ISO_OK) return finish(ctx, status);
-    print_page(name, iso_output_stream(output));
+    if (strcmp(name, "isoroll") == 0)
+        manual_program(iso_output_stream(output));
+    else if (command_find(name))
+        manual_command(command_find(name), iso_output_stream(output));
+    else
+        fputs(strcmp(name, "bash") == 0 ? complete_bash : complete_zsh, iso_output_stream(output));
     return finish(ctx, iso_output_close(ctx, output, true));
 }
 

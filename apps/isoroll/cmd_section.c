@@ -64,7 +64,7 @@ static void classify_orbits(iso_context *ctx, const iso_scene *scene, const iso_
     c.tolerance = how->tolerance;
     c.threads = how->threads;
     if (r->orbits > MOST_ORBITS || c.at_count == 0) return;
-    c.progress = progress_told;
+    c.progress = progress_sink;
     progress_doing("verdicts");
     const iso_status status = iso_chaos_run(ctx, scene, &c, &chaos);
     for (size_t i = 0; status == ISO_OK && i < chaos->starts; i++)

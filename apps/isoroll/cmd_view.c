@@ -78,18 +78,6 @@ static bool has_own_scene(const options *o)
     return o->live && strcmp(o->from.file, "-") == 0;
 }
 
-/* The laboratory has a few effects alone (view/forces.js). */
-static iso_status check_live(iso_context *ctx, const view_page *page)
-{
-    for (int e = 0; page->live && e < ISO_EFFECTS; e++)
-        if (page->effects.on[e] && e != ISO_ATTITUDE && e != ISO_LEVEL && e != ISO_ROTOR && e != ISO_GRAVITY)
-            return ISO_FAIL_INPUT(ctx, iso_effect_list[e]->name,
-                                  "--live computes with level, rotor and gravity, and the scene has '%s': take it "
-                                  "out, or leave out --live",
-                                  iso_effect_list[e]->name);
-    return ISO_OK;
-}
-
 static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
 {
     iso_scene scene = {.places = 0};
@@ -98,7 +86,12 @@ static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
                             : iso_scene_load(ctx, o->from.file, &scene);
     if (status == ISO_OK) status = iso_scene_check_times(ctx, &scene);
     if (status == ISO_OK) status = view_of_scene(ctx, &scene, page);
-    if (status == ISO_OK) status = check_live(ctx, page);
+    for (int e = 0; status == ISO_OK && page->live && e < ISO_EFFECTS; e++) /* the laboratory has a few: forces.js */
+        if (page->effects.on[e] && e != ISO_ATTITUDE && e != ISO_LEVEL && e != ISO_ROTOR && e != ISO_GRAVITY)
+            status = ISO_FAIL_INPUT(ctx, iso_effect_list[e]->name,
+                                    "--live computes with level, rotor and gravity, and the scene has '%s': take it "
+                                    "out, or leave out --live",
+                                    iso_effect_list[e]->name);
     return blame_pipe(ctx, o->from.file, iso_scene_blame(ctx, &scene, iso_text_name(o->from.file), status));
 }
 

@@ -40,15 +40,6 @@ static const char *beginning_of(const char *path)
     return text;
 }
 
-/* The kind of one of isoroll's own tables; else "". */
-static void table_name(const char *path, const char *text, char name[ISO_KIND_SIZE])
-{
-    *name = '\0';
-    if (sscanf(text, "# isoroll %31[^0-9\r\n]", name) == 1)
-        for (size_t end = strlen(name); end > 0 && name[end - 1] == ' '; end--) name[end - 1] = '\0';
-    if (strncmp(text, "\211HDF\r\n", 6) == 0) iso_table_kind(path, name);
-}
-
 /* A sweep, or a scene: each line is a key of its, a comment, or indented. */
 static unsigned kind_of_yaml(const char *text)
 {
@@ -70,11 +61,15 @@ static unsigned kind_of_yaml(const char *text)
 unsigned file_kind(const char *path, char table[ISO_KIND_SIZE])
 {
     const char *text = beginning_of(path);
-    table_name(path, text, table);
+    const bool hdf5 = strncmp(text, "\211HDF\r\n", 6) == 0;
+    *table = '\0';
+    if (sscanf(text, "# isoroll %31[^0-9\r\n]", table) == 1)
+        for (size_t end = strlen(table); end > 0 && table[end - 1] == ' '; end--) table[end - 1] = '\0';
+    if (hdf5) iso_table_kind(path, table);
     for (size_t i = 0; *table && i < sizeof kinds / sizeof *kinds; i++)
         if (kinds[i].table && strcmp(table, kinds[i].table) == 0) return kinds[i].kind;
     if (*table) return FILE_TABLE;
-    return strncmp(text, "\211HDF\r\n", 6) == 0 ? FILE_HDF5 : kind_of_yaml(text);
+    return hdf5 ? FILE_HDF5 : kind_of_yaml(text);
 }
 
 /* --- the refusal ------------------------------------------------------------------------------------------------ */

@@ -202,17 +202,6 @@ static const char *without_dot(const char *path)
     return path;
 }
 
-/* Whether a row before the n-th writes to `path`, too. */
-static bool is_written_before(const command *c, int n, const char *path, const char *options)
-{
-    for (int i = 0; i < n; i++) {
-        const char *other = path_of(options_row(c, i), OPTION_WRITES, options);
-        if (other && (strcmp(without_dot(path), without_dot(other)) == 0 || same_file(path, other, "/dev/null")))
-            return true;
-    }
-    return false;
-}
-
 /* No file is written in the place of one that is read, also not before it gets its name; and no two in one place. */
 static options_result keep_files_apart(const command *c, const char *options)
 {
@@ -223,8 +212,11 @@ static options_result keep_files_apart(const command *c, const char *options)
         const bool read = is_read(c, path, options) || (part && is_read(c, part, options));
         free(part);
         if (read) return complain("%s: '%s' would overwrite what is read", c->name, path), OPTIONS_WRONG;
-        if (is_written_before(c, i, path, options))
-            return complain("%s: '%s' would be two files in one", c->name, path), OPTIONS_WRONG;
+        for (int before = 0; before < i; before++) {
+            const char *other = path_of(options_row(c, before), OPTION_WRITES, options);
+            if (other && (strcmp(without_dot(path), without_dot(other)) == 0 || same_file(path, other, "/dev/null")))
+                return complain("%s: '%s' would be two files in one", c->name, path), OPTIONS_WRONG;
+        }
     }
     return OPTIONS_DONE;
 }

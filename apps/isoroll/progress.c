@@ -140,7 +140,7 @@ void progress_show(double part)
     pthread_mutex_unlock(&lock);
 }
 
-void progress_told(void *unused, double part)
+void progress_sink(void *unused, double part)
 {
     (void)unused;
     progress_show(part);

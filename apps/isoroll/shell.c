@@ -43,18 +43,6 @@ int shell_draw(const shell *s, const iso_record *table)
     return finish(s->ctx, plot_table(s->ctx, &s->common->plot, table));
 }
 
-/* Prints text or JSON, unless the table goes to standard output. */
-static int print(const shell *s, const shell_parts *parts)
-{
-    const iso_study_result *r = &s->result;
-    if (s->common->json) {
-        json_t *o = parts->json ? parts->json(s) : json_of_scene(&s->scene, r->fields, r->found);
-        return json_print(o) ? EXIT_DONE : EXIT_NUMERICAL;
-    }
-    if (r->text && !prints_table(s)) iso_fold(stdout, r->text, terminal_width(stdout));
-    return EXIT_DONE;
-}
-
 /* Writes and draws the table. In a file it says what it is of, not all that was found: the scene's numbers, the version
  * of isoroll, and what the study says (iso_study_describe). */
 static int save(shell *s, const shell_parts *parts, iso_table_writer *writer)
@@ -80,7 +68,7 @@ int shell_run(iso_context *ctx, const iso_study *study, const shell_parts *parts
                .study = study,
                .options = options,
                .common = common,
-               .result = {.sink = {.note = show_note, .progress = progress_told}}};
+               .result = {.sink = {.note = show_note, .progress = progress_sink}}};
     iso_table_writer *writer = NULL;
     iso_status status = prepare(&s, parts, &writer);
     if (status != ISO_OK) return finish_scene(ctx, common->file, &s.scene, status);
@@ -95,7 +83,12 @@ int shell_run(iso_context *ctx, const iso_study *study, const shell_parts *parts
         iso_table_writer_close(ctx, writer, false);
     } else {
         if (s.result.failed) result = worse(result, EXIT_SOME_FAILED);
-        result = worse(result, print(&s, parts));
+        if (common->json) {
+            json_t *o = parts->json ? parts->json(&s) : json_of_scene(&s.scene, s.result.fields, s.result.found);
+            result = worse(result, json_print(o) ? EXIT_DONE : EXIT_NUMERICAL);
+        } else if (s.result.text && !prints_table(&s)) {
+            iso_fold(stdout, s.result.text, terminal_width(stdout));
+        }
         if (parts->write) result = worse(result, parts->write(&s));
         result = worse(result, save(&s, parts, writer));
     }

@@ -58,7 +58,7 @@ static void show_note(void *data, const char *text)
 
 iso_sink stream_sink(stream *s)
 {
-    return (iso_sink){stream_header, stream_row, show_note, progress_told, s};
+    return (iso_sink){stream_header, stream_row, show_note, progress_sink, s};
 }
 
 int stream_close(stream *s, iso_status status, bool keep)

@@ -37,7 +37,7 @@ static iso_status make_branch(iso_context *ctx, const iso_picture_request *q, is
         ISO_TRY(iso_record_add(ctx, point ? points : events, 1, row)); /* an event repeats a point */
     }
     ISO_TRY(iso_picture_set(ctx, picture, "branches", &most));
-    return iso_picture_say(ctx, picture, "over", "%s", iso_picture_symbol(iso_record_name(r, OVER)));
+    return iso_picture_line(ctx, picture, "over", "%s", iso_picture_symbol(iso_record_name(r, OVER)));
 }
 
 const iso_picture_maker iso_picture_branch = {
@@ -113,7 +113,7 @@ static iso_status make_chart(iso_context *ctx, const iso_picture_request *q, iso
         }
     }
     ISO_TRY(iso_picture_set(ctx, picture, "none", (double[]){none}));
-    return iso_picture_say(ctx, picture, "up", "%s", iso_picture_symbol(iso_record_name(r, UP)));
+    return iso_picture_line(ctx, picture, "up", "%s", iso_picture_symbol(iso_record_name(r, UP)));
 }
 
 const iso_picture_maker iso_picture_chart = {

@@ -102,8 +102,8 @@ iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], c
     picture->layout = m->kind;
     iso_status status = m->make(ctx, &q, picture);
     if (status == ISO_OK && !iso_record_get(picture->table[0], "title"))
-        status = of_ball ? iso_picture_say_title(ctx, &q, picture, m->shows, &p)
-                         : iso_picture_say(ctx, picture, "title", "%s", title ? title : m->shows);
+        status = of_ball ? iso_picture_title(ctx, &q, picture, m->shows, &p)
+                         : iso_picture_line(ctx, picture, "title", "%s", title ? title : m->shows);
     free_all(ISO_PICTURE_ASIDE, picture->aside);
     if (status != ISO_OK) iso_picture_free(picture);
     return status;
@@ -156,7 +156,7 @@ iso_record **iso_picture_aside(iso_picture *picture)
     return &picture->aside[i];
 }
 
-iso_status iso_picture_say(iso_context *ctx, iso_picture *picture, const char *key, const char *format, ...)
+iso_status iso_picture_line(iso_context *ctx, iso_picture *picture, const char *key, const char *format, ...)
 {
     char *text;
     va_list arguments;
@@ -169,13 +169,13 @@ iso_status iso_picture_say(iso_context *ctx, iso_picture *picture, const char *k
     return status;
 }
 
-iso_status iso_picture_say_title(iso_context *ctx, const iso_picture_request *q, iso_picture *picture,
-                                 const char *seen, const iso_params *p)
+iso_status iso_picture_title(iso_context *ctx, const iso_picture_request *q, iso_picture *picture, const char *seen,
+                             const iso_params *p)
 {
     char ball[ISO_BALL_SIZE];
     const char *own = iso_record_get(q->table[0], "title");
-    if (own) return iso_picture_say(ctx, picture, "title", "%s", own);
-    return iso_picture_say(ctx, picture, "title", ISO_PICTURE_TITLE, seen, iso_ball_text(ball, p));
+    if (own) return iso_picture_line(ctx, picture, "title", "%s", own);
+    return iso_picture_line(ctx, picture, "title", ISO_PICTURE_TITLE, seen, iso_ball_text(ball, p));
 }
 
 iso_status iso_picture_set(iso_context *ctx, iso_picture *picture, const char *keys, const double numbers[])

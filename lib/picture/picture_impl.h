@@ -47,12 +47,12 @@ iso_record **iso_picture_aside(iso_picture *picture);
 
 /* Lines of the first table: a text; numbers, whose keys have a blank between; a title: that of table[0], else what is
  * seen, a gap, and the ball. */
-iso_status iso_picture_say(iso_context *ctx, iso_picture *picture, const char *key, const char *format, ...)
+iso_status iso_picture_line(iso_context *ctx, iso_picture *picture, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 iso_status iso_picture_set(iso_context *ctx, iso_picture *picture, const char *keys, const double numbers[]);
 #define ISO_PICTURE_TITLE "%s        %s"
-iso_status iso_picture_say_title(iso_context *ctx, const iso_picture_request *request, iso_picture *picture,
-                                 const char *seen, const iso_params *p);
+iso_status iso_picture_title(iso_context *ctx, const iso_picture_request *request, iso_picture *picture,
+                             const char *seen, const iso_params *p);
 
 /* A number of a table by its column, or by the name of its column (NaN: there is none); whether a word is this one; the
  * axis of the line "axis", 0 to 2 (-1: there is none); the least and the largest number of a column. */

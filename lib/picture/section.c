@@ -186,10 +186,10 @@ static iso_status make_periodic(iso_context *ctx, const iso_picture_request *q, 
     }
     ISO_TRY(iso_picture_charts_add(ctx, &c, *crossings, picture));
     if (!iso_record_get(r, "title")) /* a file has one crossing of each orbit */
-        ISO_TRY(iso_picture_say(ctx, picture, "title", ISO_PICTURE_TITLE ": a crossing of each orbit, its images",
-                                "Periodic orbits", iso_ball_text(ball, &c.params)));
-    ISO_TRY(iso_picture_say(ctx, picture, "grey_means", "unstable; each stable orbit has a colour"));
-    ISO_TRY(iso_picture_say(ctx, picture, "dark_means", "%s", ""));
+        ISO_TRY(iso_picture_line(ctx, picture, "title", ISO_PICTURE_TITLE ": a crossing of each orbit, its images",
+                                 "Periodic orbits", iso_ball_text(ball, &c.params)));
+    ISO_TRY(iso_picture_line(ctx, picture, "grey_means", "unstable; each stable orbit has a colour"));
+    ISO_TRY(iso_picture_line(ctx, picture, "dark_means", "%s", ""));
     return iso_picture_over(ctx, &c, NULL, picture);
 }
 

@@ -240,16 +240,16 @@ static iso_status add_side(iso_context *ctx, const iso_picture_charts *c, const 
     ISO_TRY(iso_picture_set(ctx, picture, key[0], ends));
     if (image) ISO_TRY(add_image(ctx, f, spots, table));
     if (!image && rows > 0) ISO_TRY(iso_record_add(ctx, table, rows, iso_record_const_row(spots, 0)));
-    ISO_TRY(iso_picture_say(ctx, picture, key[1], "%s: %s%s = 0, %s%s increasing",
-                            ball         ? "ball"
-                            : c->eps > 0 ? "point"
-                                         : "directions of γ and M",
-                            n, index[0], n, index[0]));
-    ISO_TRY(iso_picture_say(ctx, picture, key[2], "%s,  where %s%s = cos %s, %s%s = −sin %s", angle, n, index[1],
-                            angle, n, index[2], angle));
-    if (ball) return iso_picture_say(ctx, picture, key[3], "ω%s / |ω|", index[0]);
-    return c->eps > 0 ? iso_picture_say(ctx, picture, key[3], "L = M%s, in the units of the scene", index[0])
-                      : iso_picture_say(ctx, picture, key[3], "x = M%s / |M|", index[0]);
+    ISO_TRY(iso_picture_line(ctx, picture, key[1], "%s: %s%s = 0, %s%s increasing",
+                             ball         ? "ball"
+                             : c->eps > 0 ? "point"
+                                          : "directions of γ and M",
+                             n, index[0], n, index[0]));
+    ISO_TRY(iso_picture_line(ctx, picture, key[2], "%s,  where %s%s = cos %s, %s%s = −sin %s", angle, n, index[1],
+                             angle, n, index[2], angle));
+    if (ball) return iso_picture_line(ctx, picture, key[3], "ω%s / |ω|", index[0]);
+    return c->eps > 0 ? iso_picture_line(ctx, picture, key[3], "L = M%s, in the units of the scene", index[0])
+                      : iso_picture_line(ctx, picture, key[3], "x = M%s / |M|", index[0]);
 }
 
 iso_status iso_picture_charts_add(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings,

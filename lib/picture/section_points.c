@@ -233,14 +233,14 @@ iso_status iso_picture_points_make(iso_context *ctx, iso_picture_points *p, cons
     ISO_TRY(iso_picture_charts_add(ctx, &p->charts, p->kept, picture));
     ISO_TRY(iso_picture_add(ctx, picture, "orbits", "orbit shade rotation", &orbits));
     ISO_TRY(iso_record_add(ctx, orbits, count, iso_record_const_row(p->orbits, 0)));
-    ISO_TRY(iso_picture_say(ctx, picture, "title", "%s: %zu orbit%s%s", iso_ball_text(ball, &p->charts.params), count,
-                            count == 1 ? "" : "s",
-                            p->reversors && any[ISO_PICTURE_COLOURED] ? " and mirror images" : ""));
-    ISO_TRY(iso_picture_say(ctx, picture, "grey_means", "%s",
-                            !any[ISO_PICTURE_GREY] ? ""
-                            : p->verdicts          ? "chaotic"
-                            : p->parted            ? "ball and point part: chaotic; or too few crossings to tell"
-                                                   : "chaotic, or too few crossings to tell"));
-    ISO_TRY(iso_picture_say(ctx, picture, "dark_means", "%s", any[ISO_PICTURE_DARK] ? "undecided" : ""));
+    ISO_TRY(iso_picture_line(ctx, picture, "title", "%s: %zu orbit%s%s", iso_ball_text(ball, &p->charts.params),
+                             count, count == 1 ? "" : "s",
+                             p->reversors && any[ISO_PICTURE_COLOURED] ? " and mirror images" : ""));
+    ISO_TRY(iso_picture_line(ctx, picture, "grey_means", "%s",
+                             !any[ISO_PICTURE_GREY] ? ""
+                             : p->verdicts          ? "chaotic"
+                             : p->parted            ? "ball and point part: chaotic; or too few crossings to tell"
+                                                    : "chaotic, or too few crossings to tell"));
+    ISO_TRY(iso_picture_line(ctx, picture, "dark_means", "%s", any[ISO_PICTURE_DARK] ? "undecided" : ""));
     return iso_picture_over(ctx, &p->charts, over, picture);
 }

@@ -112,16 +112,6 @@ static iso_status choose_value(iso_context *ctx, const char *wanted, swept *s)
     return ISO_OK;
 }
 
-static void find_axes(swept *s)
-{
-    for (int c = 0; c < (int)iso_record_columns(s->r) && s->axes < AXES; c++) {
-        bool differs = false;
-        for (size_t i = 1, vary = varies(s, c); vary && i < iso_record_rows(s->r) && !differs; i++)
-            differs = iso_picture_at(s->r, i, c) != iso_picture_at(s->r, 0, c);
-        if (differs) s->axis[s->axes++] = c;
-    }
-}
-
 /* --- what both share -------------------------------------------------------------------------------------------- */
 
 /* k = 1 and k = -1, if they are on this axis. */
@@ -133,18 +123,18 @@ static iso_status add_marks(iso_context *ctx, const iso_picture_scale *scale, in
     return ISO_OK;
 }
 
-static iso_status say_value(iso_context *ctx, iso_picture *picture, const swept *s, bool sizes)
+static iso_status set_value(iso_context *ctx, iso_picture *picture, const swept *s, bool sizes)
 {
     ISO_TRY(iso_picture_set(ctx, picture, "sizes", (double[]){sizes}));
-    return iso_picture_say(ctx, picture, "value", sizes ? "|%s|" : "%s", s->text);
+    return iso_picture_line(ctx, picture, "value", sizes ? "|%s|" : "%s", s->text);
 }
 
 /* of: the number of which they are values; NULL: points. */
-static iso_status say_title(iso_context *ctx, iso_picture *picture, const swept *s, const char *of)
+static iso_status set_title(iso_context *ctx, iso_picture *picture, const swept *s, const char *of)
 {
     if (iso_record_get(s->r, "title")) return ISO_OK;
-    return iso_picture_say(ctx, picture, "title", "A sweep of %zu %s%s", iso_record_rows(s->r),
-                           of ? "values of " : "points", of ? of : "");
+    return iso_picture_line(ctx, picture, "title", "A sweep of %zu %s%s", iso_record_rows(s->r),
+                            of ? "values of " : "points", of ? of : "");
 }
 
 /* --- one number varies ------------------------------------------------------------------------------------------ */
@@ -204,13 +194,13 @@ static iso_status make_curve(iso_context *ctx, const swept *s, iso_picture *pict
     ISO_TRY(fill_curve(ctx, s, spread.sizes, x.k, *all, curve, &band));
     ISO_TRY(add_marks(ctx, &x, 1, marks));
     ISO_TRY(iso_picture_set(ctx, picture, "logarithmic_x", (double[]){x.logarithmic}));
-    ISO_TRY(say_value(ctx, picture, s, spread.sizes));
-    ISO_TRY(iso_picture_say(ctx, picture, "over", "%s", over));
-    ISO_TRY(iso_picture_say(ctx, picture, "error", "%s",
-                            !band        ? ""
-                            : s->low < 0 ? "± estimated error"
-                                         : "95 % confidence, undecided orbits included"));
-    return say_title(ctx, picture, s, over);
+    ISO_TRY(set_value(ctx, picture, s, spread.sizes));
+    ISO_TRY(iso_picture_line(ctx, picture, "over", "%s", over));
+    ISO_TRY(iso_picture_line(ctx, picture, "error", "%s",
+                             !band        ? ""
+                             : s->low < 0 ? "± estimated error"
+                                          : "95 % confidence, undecided orbits included"));
+    return set_title(ctx, picture, s, over);
 }
 
 /* --- maps: more than one number varies -------------------------------------------------------------------------- */
@@ -311,7 +301,7 @@ static iso_status collect(iso_context *ctx, const swept *s, layout *l, iso_recor
 }
 
 /* One scale of colours for all maps. */
-static iso_status say_colours(iso_context *ctx, iso_picture *picture, const iso_record *points,
+static iso_status set_colours(iso_context *ctx, iso_picture *picture, const iso_record *points,
                               const iso_picture_spread *s)
 {
     double low = s->sizes ? s->least : s->low, high = s->sizes ? fmax(fabs(s->low), fabs(s->high)) : s->high;
@@ -363,11 +353,11 @@ static iso_status make_maps(iso_context *ctx, const swept *s, iso_picture *pictu
     ISO_TRY(add_marks(ctx, &m.y, 2, marks));
     ISO_TRY(
         iso_picture_set(ctx, picture, "logarithmic_x logarithmic_y", (double[]){m.x.logarithmic, m.y.logarithmic}));
-    ISO_TRY(say_value(ctx, picture, s, spread.sizes));
-    ISO_TRY(say_colours(ctx, picture, *points, &spread));
-    ISO_TRY(iso_picture_say(ctx, picture, "x", "%s", l.x_name));
-    ISO_TRY(iso_picture_say(ctx, picture, "y", "%s", l.y_name));
-    return say_title(ctx, picture, s, NULL);
+    ISO_TRY(set_value(ctx, picture, s, spread.sizes));
+    ISO_TRY(set_colours(ctx, picture, *points, &spread));
+    ISO_TRY(iso_picture_line(ctx, picture, "x", "%s", l.x_name));
+    ISO_TRY(iso_picture_line(ctx, picture, "y", "%s", l.y_name));
+    return set_title(ctx, picture, s, NULL);
 }
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
@@ -377,7 +367,12 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     char value[ISO_PICTURE_OPTION];
     swept s = {.r = q->table[0], .low = -1, .high = -1};
     ISO_TRY(choose_value(ctx, iso_picture_option(q, "value", value) ? value : NULL, &s));
-    find_axes(&s);
+    for (int c = 0; c < (int)iso_record_columns(s.r) && s.axes < AXES; c++) {
+        bool differs = false;
+        for (size_t i = 1, vary = varies(&s, c); vary && i < iso_record_rows(s.r) && !differs; i++)
+            differs = iso_picture_at(s.r, i, c) != iso_picture_at(s.r, 0, c);
+        if (differs) s.axis[s.axes++] = c;
+    }
     if (s.axes == 0) return ISO_FAIL_INPUT(ctx, "", "nothing varies in this sweep");
     return s.axes == 1 ? make_curve(ctx, &s, picture) : make_maps(ctx, &s, picture);
 }

@@ -201,18 +201,6 @@ static void add_column(void *data, const char *name, const iso_field *field, con
     iso_sweep_add(data, name);
 }
 
-/* All columns of a job. */
-static void add_columns(iso_sweep_job *job)
-{
-    const iso_sweep_quantity *q = &job->quantity;
-    if (q->add)
-        q->add(job);
-    else if (q->columns)
-        iso_sweep_add(job, q->columns);
-    else
-        iso_numbers_visit(q->study->fields, NULL, add_column, job);
-}
-
 /* --- jobs -------------------------------------------------------------------------------------------------------- */
 
 static bool stop_at_once(void *unused)
@@ -221,16 +209,8 @@ static bool stop_at_once(void *unused)
     return false;
 }
 
-/* Whether every scene of the sweep will be refused for what it has: an effect, or columns. */
-static bool is_about_all(const iso_scene *base, const char *about)
-{
-    bool is = strcmp(about, "effects") == 0 || strcmp(about, "columns") == 0;
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        is = is || (base->effects.on[e] && strcmp(about, iso_effect_list[e]->name) == 0);
-    return is;
-}
-
-/* The study is asked for the base, and stopped as soon as it has refused nothing. */
+/* The study is asked for the base, and stopped as soon as it has refused nothing. What it refuses for an effect or for
+ * columns it would refuse in every scene of the sweep. */
 static iso_status refuse(iso_context *ctx, const iso_sweep_job *job)
 {
     iso_context *own = iso_context_create();
@@ -239,7 +219,11 @@ static iso_status refuse(iso_context *ctx, const iso_sweep_job *job)
     if (!own) return iso_context_no_memory(ctx, "a sweep");
     iso_context_set_monitor(own, stop_at_once, NULL);
     iso_status status = job->quantity.study->run(own, &subject, job->options, &result);
-    if ((status == ISO_BAD_INPUT || status == ISO_NOT_MAPPED) && is_about_all(job->base, iso_context_about(own)))
+    const char *about = iso_context_about(own);
+    bool all = strcmp(about, "effects") == 0 || strcmp(about, "columns") == 0;
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        all = all || (job->base->effects.on[e] && strcmp(about, iso_effect_list[e]->name) == 0);
+    if ((status == ISO_BAD_INPUT || status == ISO_NOT_MAPPED) && all)
         iso_context_fail(ctx, status, "", "%s", iso_context_message(own));
     else
         status = ISO_OK;
@@ -267,8 +251,14 @@ iso_status iso_sweep_job_begin(iso_context *ctx, const iso_sweep_plan *plan, con
     if (status == ISO_OK && job->base) status = refuse(ctx, job);
     if (status != ISO_OK && status != ISO_NO_MEMORY)
         iso_context_fail(ctx, status, q->name, "%s: %s", q->name, iso_context_message(ctx));
-    if (status == ISO_OK) add_columns(job);
-    return status;
+    if (status != ISO_OK) return status;
+    if (q->add)
+        q->add(job);
+    else if (q->columns)
+        iso_sweep_add(job, q->columns);
+    else
+        iso_numbers_visit(q->study->fields, NULL, add_column, job);
+    return ISO_OK;
 }
 
 void iso_sweep_job_end(iso_sweep_job *job)

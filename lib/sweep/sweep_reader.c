@@ -229,19 +229,6 @@ static iso_status check_part(iso_context *ctx, merger *m, const iso_sweep_reader
                          m->part[shard.index]->path, r->path);
 }
 
-static iso_status add_part(iso_context *ctx, merger *m, const char *path)
-{
-    iso_sweep_reader *r;
-    ISO_TRY(iso_sweep_reader_open(ctx, path, &r));
-    if (!m->part) m->first = r;
-    iso_status status = check_part(ctx, m, r);
-    if (status == ISO_OK)
-        m->part[r->shard.index] = r;
-    else
-        iso_sweep_reader_close(r);
-    return status;
-}
-
 iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,
                            iso_sweep_failures *failures)
 {
@@ -251,7 +238,16 @@ iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const par
     *failures = (iso_sweep_failures){.count = 0};
     if (strcmp(path, "-") != 0 && stat(path, &s) == 0 && S_ISREG(s.st_mode))
         return ISO_FAIL_FILE(ctx, "'%s' is there: it is not overwritten", path);
-    for (size_t i = 0; i < count && status == ISO_OK; i++) status = add_part(ctx, &m, parts[i]);
+    for (size_t i = 0; i < count && status == ISO_OK; i++) {
+        iso_sweep_reader *r;
+        status = iso_sweep_reader_open(ctx, parts[i], &r);
+        if (!m.part) m.first = r;
+        if (status == ISO_OK) status = check_part(ctx, &m, r);
+        if (status == ISO_OK)
+            m.part[r->shard.index] = r;
+        else
+            iso_sweep_reader_close(r);
+    }
     for (size_t i = 0; i < m.count && status == ISO_OK; i++)
         if (!m.part[i]) status = ISO_FAIL_FILE(ctx, "part %zu of %zu is missing", i + 1, m.count);
     if (status == ISO_OK)

@@ -81,17 +81,6 @@ static iso_status make_list(iso_sweep_file *f, iso_sweep_axis *a, size_t count)
     return a->list ? ISO_OK : iso_context_no_memory(f->yaml.ctx, "'%s'", a->name);
 }
 
-/* No value between the ends may overflow on its way. */
-static iso_status check_range(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)
-{
-    const double ratio = a->to / a->from, most = fmax(fabs(a->from), fabs(a->to)) * fmax((double)a->count, 2);
-    if (a->logarithmic && !(copysign(1, a->from) * a->to > 0 && a->from != 0))
-        return ISO_FAIL_AT(f, node, "a logarithmic range from %s to %s: both ends must be above 0, or both below",
-                           ISO_SHORT(a->from), ISO_SHORT(a->to));
-    if (a->logarithmic ? isfinite(ratio) && ratio > 0 : isfinite(most)) return ISO_OK;
-    return ISO_FAIL_AT(f, node, "a range from %s to %s is too wide", ISO_SHORT(a->from), ISO_SHORT(a->to));
-}
-
 static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
 {
     static const iso_sweep_setting settings[] = {
@@ -109,7 +98,12 @@ static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_swe
     a->values = isnan(value[2]) ? ISO_FROM_DRAWING : ISO_FROM_RANGE;
     a->count = isnan(value[2]) ? 1 : (size_t)value[2];
     a->logarithmic = value[3] > 0;
-    return check_range(f, node, a);
+    const double ratio = a->to / a->from, most = fmax(fabs(a->from), fabs(a->to)) * fmax((double)a->count, 2);
+    if (a->logarithmic && !(copysign(1, a->from) * a->to > 0 && a->from != 0))
+        return ISO_FAIL_AT(f, node, "a logarithmic range from %s to %s: both ends must be above 0, or both below",
+                           ISO_SHORT(a->from), ISO_SHORT(a->to));
+    if (a->logarithmic ? isfinite(ratio) && ratio > 0 : isfinite(most)) return ISO_OK; /* no value overflows */
+    return ISO_FAIL_AT(f, node, "a range from %s to %s is too wide", ISO_SHORT(a->from), ISO_SHORT(a->to));
 }
 
 /* Values, and ranges of values with a count. list NULL: only counts them. */
@@ -133,16 +127,6 @@ static iso_status read_items(iso_sweep_file *f, const yaml_node_t *node, iso_swe
         *count += range.count;
     }
     return ISO_OK;
-}
-
-static iso_status read_list(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
-{
-    size_t count;
-    if (node->data.sequence.items.start == node->data.sequence.items.top)
-        return iso_yaml_expected(&f->yaml, node, a->name, "a list of at least one value");
-    ISO_TRY(read_items(f, node, a, &count));
-    ISO_TRY(make_list(f, a, count));
-    return read_items(f, node, a, &count);
 }
 
 /* All a + b + c = sum from 1 on; ordered: a < b < c. */
@@ -183,7 +167,14 @@ static iso_status read_spread(iso_sweep_file *f, const yaml_node_t *node, iso_sw
 
 static iso_status read_values(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
 {
-    if (node->type == YAML_SEQUENCE_NODE) return read_list(f, node, a);
+    size_t count;
+    if (node->type == YAML_SEQUENCE_NODE) {
+        if (node->data.sequence.items.start == node->data.sequence.items.top)
+            return iso_yaml_expected(&f->yaml, node, a->name, "a list of at least one value");
+        ISO_TRY(read_items(f, node, a, &count));
+        ISO_TRY(make_list(f, a, count));
+        return read_items(f, node, a, &count);
+    }
     if (node->type == YAML_MAPPING_NODE) {
         if (a->target == ISO_TO_CHART && a->chart == 2) return read_spread(f, node, a);
         return a->width == 3 ? read_triangle(f, node, a) : read_range(f, node, a);

@@ -72,22 +72,10 @@ static iso_status set_text(iso_context *ctx, iso_record *r, const char *key, con
     return status;
 }
 
-/* "vary/k chaos/verdict": all columns. */
-static iso_status set_names(iso_context *ctx, iso_record *r, const iso_sweep_head *head)
-{
-    iso_memory memory;
-    FILE *to = iso_memory_open(&memory);
-    for (int i = 0; to && i < head->columns; i++)
-        fprintf(to, "%s%s/%s", i > 0 ? " " : "", head->column[i].group, head->column[i].name);
-    char *text = iso_memory_close(to, &memory);
-    const iso_status status = text ? iso_record_set(ctx, r, "names", text) : iso_context_no_memory(ctx, "a sweep");
-    free(text);
-    return status;
-}
-
 static iso_status set_lines(iso_context *ctx, iso_record *r, const iso_sweep_head *head, iso_sweep_shard shard)
 {
     char text[64];
+    iso_memory memory;
     iso_record_set_kind(r, shard.count == 1 ? ISO_SWEEP_KIND : ISO_SWEEP_PART_KIND);
     ISO_TRY(iso_record_set(ctx, r, "isoroll", head->version));
     snprintf(text, sizeof text, "%016" PRIx64 "%016" PRIx64, head->hash[0], head->hash[1]);
@@ -99,7 +87,13 @@ static iso_status set_lines(iso_context *ctx, iso_record *r, const iso_sweep_hea
     ISO_TRY(iso_record_set(ctx, r, "vectors", head->vectors));
     snprintf(text, sizeof text, "%zu of %zu", shard.index + 1, shard.count);
     if (shard.count > 1) ISO_TRY(iso_record_set(ctx, r, "part", text));
-    ISO_TRY(set_names(ctx, r, head));
+    FILE *to = iso_memory_open(&memory);
+    for (int i = 0; to && i < head->columns; i++) /* "vary/k chaos/verdict": all columns */
+        fprintf(to, "%s%s/%s", i > 0 ? " " : "", head->column[i].group, head->column[i].name);
+    char *names = iso_memory_close(to, &memory);
+    const iso_status status = names ? iso_record_set(ctx, r, "names", names) : iso_context_no_memory(ctx, "a sweep");
+    free(names);
+    ISO_TRY(status);
     ISO_TRY(set_text(ctx, r, ISO_TABLE_TEXT, head->text));
     return set_text(ctx, r, "scene", head->scene);
 }

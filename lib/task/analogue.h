@@ -33,12 +33,12 @@ typedef struct iso_analogue_problem {
 } iso_analogue_problem;
 
 /* How J was found. */
-typedef enum iso_analogue_way {
+typedef enum iso_analogue_choice {
     ISO_ANALOGUE_STATED,   /* as the problem states it                            */
     ISO_ANALOGUE_FREE,     /* k = -1: the shift that makes the level 0            */
     ISO_ANALOGUE_SHIFTED,  /* k = -1: J = d - c                                   */
     ISO_ANALOGUE_CONSTANT, /* equal moments                                       */
-} iso_analogue_way;
+} iso_analogue_choice;
 
 /* A ball whose twin is the point: its gamma and M, in its clock s. */
 typedef struct iso_analogue_ball {
@@ -52,7 +52,7 @@ typedef struct iso_analogue {
     iso_analogue_problem problem;
     double lowest, highest; /* of V on the sphere ... */
     int bottom;             /* ... the axis of the least V */
-    iso_analogue_way way;
+    iso_analogue_choice choice;
     double shift; /* V of the problem less that of the ball's twin, a constant                         */
     iso_analogue_ball reduced;
     char not_free[192]; /* why there is no free ball; "" when the ball is free                     */

@@ -25,16 +25,16 @@ static void print_problem(FILE *to, const iso_analogue *a)
     fprintf(to, "#   energy M^2/2 + V = %.10g; V is between %.10g and %.10g\n", p->energy, a->lowest, a->highest);
     const bool free = a->reduced.level == 0, shifted = p->neumann || p->eps < 0;
     fprintf(to, "# ball: %s", free ? "free" : "in the potential U = -c (n, J^-1 n)^(-1/k)");
-    if (a->way == ISO_ANALOGUE_STATED) fprintf(to, free ? ", since the energy is 0\n" : "; c = E k^2/det J\n");
-    if (a->way == ISO_ANALOGUE_FREE)
+    if (a->choice == ISO_ANALOGUE_STATED) fprintf(to, free ? ", since the energy is 0\n" : "; c = E k^2/det J\n");
+    if (a->choice == ISO_ANALOGUE_FREE)
         fprintf(to, ": on the sphere V = E - eps (gamma, J gamma) with the ball's J = %s\n",
                 shifted ? "2 E - c, eps = 1/2" : "J + E/eps");
-    if (a->way == ISO_ANALOGUE_SHIFTED)
+    if (a->choice == ISO_ANALOGUE_SHIFTED)
         fprintf(to,
                 ": V = d/2 - eps (gamma, J gamma), d = %.10g, and c = (E - d/2) k^2/det J;\n"
                 "#   any d with a positive J would do; this one makes max J/min J = 3/2\n",
                 2 * a->shift);
-    if (a->way == ISO_ANALOGUE_CONSTANT)
+    if (a->choice == ISO_ANALOGUE_CONSTANT)
         fprintf(to, ": V is constant: the point turns uniformly, and so does any ball of equal moments\n");
     if (*a->not_free) fprintf(to, "#   %s\n", a->not_free);
 }
@@ -52,7 +52,7 @@ static void print_ball(FILE *to, const iso_analogue *a)
     fprintf(to, "\n");
     if (!a->has_body) {
         fprintf(to, "# no body:\n#   %s\n", a->no_body);
-        if (r->params.k == -1 && a->way != ISO_ANALOGUE_SHIFTED && !(a->room > 0))
+        if (r->params.k == -1 && a->choice != ISO_ANALOGUE_SHIFTED && !(a->room > 0))
             fprintf(to, "#   --level gives one that has a body, in the potential of a level\n");
         return;
     }

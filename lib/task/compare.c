@@ -61,25 +61,6 @@ static iso_status open_backend(comparer *r, iso_backend backend)
     return ISO_OK;
 }
 
-/* It is no failure if there is no closed solution, or if it cannot be found. */
-static iso_status open_exact(comparer *r)
-{
-    const iso_status status = open_backend(r, ISO_BACKEND_EXACT);
-    if (status != ISO_BAD_ARGUMENT && status != ISO_NUMERICAL) return status;
-    snprintf(r->out->no_exact, sizeof r->out->no_exact, "%s", iso_context_message(r->ctx));
-    return ISO_OK;
-}
-
-static iso_status find_sample(comparer *r, int which, size_t i, iso_sample *sample)
-{
-    iso_backend_run *run = &r->out->run[which];
-    const double begin = processor_seconds();
-    const iso_status status = iso_orbit_at(r->orbit[which], iso_scene_time(r->scene, i), sample);
-    run->seconds += processor_seconds() - begin;
-    run->statistics = iso_orbit_statistics(r->orbit[which]);
-    return status;
-}
-
 static iso_status keep(comparer *r, int which, size_t i, const iso_sample *sample)
 {
     double *row;
@@ -100,7 +81,14 @@ static iso_status add_rows(comparer *r, bool (*progress)(void *data, double part
     const size_t rows = iso_scene_rows(r->scene);
     iso_sample sample[ISO_BACKENDS];
     for (size_t i = 0; i < rows; i++) {
-        for (int which = 0; which < r->out->runs; which++) ISO_TRY(find_sample(r, which, i, &sample[which]));
+        for (int which = 0; which < r->out->runs; which++) {
+            iso_backend_run *run = &r->out->run[which];
+            const double begin = processor_seconds();
+            const iso_status status = iso_orbit_at(r->orbit[which], iso_scene_time(r->scene, i), &sample[which]);
+            run->seconds += processor_seconds() - begin;
+            run->statistics = iso_orbit_statistics(r->orbit[which]);
+            ISO_TRY(status);
+        }
         for (int which = 0; which < r->out->runs; which++) ISO_TRY(keep(r, which, i, &sample[which]));
         if (progress && !progress(data, (double)(i + 1) / (double)rows)) break;
     }
@@ -143,14 +131,6 @@ static iso_status compare_rows(iso_context *ctx, const iso_comparison *c, int ru
     return status;
 }
 
-static iso_status compare_runs(iso_context *ctx, iso_comparison *c)
-{
-    ISO_TRY(compare_rows(ctx, c, ISO_BALL, ISO_POINT, &c->difference, c->worst));
-    for (int b = 0; c->runs == ISO_BACKENDS && b < ISO_INTEGRATED; b++)
-        ISO_TRY(compare_rows(ctx, c, ISO_BY_EXACT, b, &c->from_exact[b], c->worst_from_exact[b]));
-    return ISO_OK;
-}
-
 iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(void *data, double part),
                        void *data, iso_comparison **comparison)
 {
@@ -162,12 +142,18 @@ iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress
     if (status == ISO_OK) status = open_backend(&r, ISO_BACKEND_BALL);
     if (status == ISO_OK) status = iso_orbit_check_time(r.orbit[ISO_BALL], scene->end);
     if (status == ISO_OK) status = open_backend(&r, ISO_BACKEND_POINT);
-    if (status == ISO_OK) status = open_exact(&r);
+    if (status == ISO_OK) status = open_backend(&r, ISO_BACKEND_EXACT);
+    if (c->runs == ISO_INTEGRATED && (status == ISO_BAD_ARGUMENT || status == ISO_NUMERICAL)) {
+        snprintf(c->no_exact, sizeof c->no_exact, "%s", iso_context_message(ctx)); /* it is no failure */
+        status = ISO_OK;
+    }
     if (status == ISO_OK) status = add_rows(&r, progress, data);
     for (int b = 0; b < ISO_BACKENDS; b++) iso_orbit_free(r.orbit[b]);
     const iso_record *rows = c->runs > 0 ? c->run[c->runs - 1].trajectory : NULL;
     if (rows && iso_record_rows(rows) > 0 && (status == ISO_OK || status == ISO_NUMERICAL || status == ISO_STOPPED)) {
-        const iso_status rows_status = compare_runs(ctx, c);
+        iso_status rows_status = compare_rows(ctx, c, ISO_BALL, ISO_POINT, &c->difference, c->worst);
+        for (int b = 0; rows_status == ISO_OK && c->runs == ISO_BACKENDS && b < ISO_INTEGRATED; b++)
+            rows_status = compare_rows(ctx, c, ISO_BY_EXACT, b, &c->from_exact[b], c->worst_from_exact[b]);
         if (rows_status == ISO_OK) return status;
         status = rows_status;
     }
@@ -319,15 +305,6 @@ static void free_comparison(void *found)
     iso_comparison_free(c);
 }
 
-static iso_status describe(iso_context *ctx, const iso_scene *scene, const iso_comparison *c)
-{
-    iso_record *r = c->difference;
-    iso_status status = iso_record_describe_scene(ctx, r, scene);
-    if (status == ISO_OK) status = iso_record_set_fields(ctx, r, iso_comparison_fields, c);
-    if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "tolerance", 1, &scene->tolerance);
-    return status;
-}
-
 static bool show(void *data, double part)
 {
     iso_study_progress(data, part);
@@ -356,8 +333,10 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     for (int e = 0; e < ISO_EFFECTS; e++)
         if (scene.effects.on[e] && iso_effect_list[e]->ball_only)
             iso_study_note(result, "'%s' acts on nothing and is not compared", iso_effect_list[e]->name);
-    const iso_status made = describe(ctx, &scene, c);
-    return status == ISO_OK ? made : status;
+    ISO_TRY(iso_record_describe_scene(ctx, c->difference, &scene));
+    ISO_TRY(iso_record_set_fields(ctx, c->difference, iso_comparison_fields, c));
+    ISO_TRY(iso_record_set_numbers(ctx, c->difference, "tolerance", 1, &scene.tolerance));
+    return status;
 }
 
 const iso_option iso_compare_option[] = {

@@ -166,8 +166,8 @@ static double agree_until(const iso_comparison *c, double bound)
     return iso_record_const_row(c->difference, i)[0];
 }
 
-bool iso_comparison_words(const iso_scene *scene, const iso_comparison *c, double *most,
-                          char words[ISO_COMPARISON_WORDS])
+bool iso_comparison_text(const iso_scene *scene, const iso_comparison *c, double *most,
+                         char words[ISO_COMPARISON_SIZE])
 {
     enum { GROWTH = 30 }; /* errors that grow like the cube of the time are 8 times those of the first half */
     const size_t rows = iso_record_rows(c->difference), all = iso_scene_rows(scene);
@@ -179,18 +179,18 @@ bool iso_comparison_words(const iso_scene *scene, const iso_comparison *c, doubl
     *most = worst;
     if (rows < all) snprintf(part, sizeof part, " in the %zu of %zu rows that were compared", rows, all);
     if (worst <= same)
-        snprintf(words, ISO_COMPARISON_WORDS, "the same orbit%s: %s agree to %.1e", part, who, worst);
+        snprintf(words, ISO_COMPARISON_SIZE, "the same orbit%s: %s agree to %.1e", part, who, worst);
     else if (!isfinite(worst))
-        snprintf(words, ISO_COMPARISON_WORDS, "no result%s: a difference is not finite", part);
+        snprintf(words, ISO_COMPARISON_SIZE, "no result%s: a difference is not finite", part);
     else if (worst > bound && worst > GROWTH * half)
-        snprintf(words, ISO_COMPARISON_WORDS,
+        snprintf(words, ISO_COMPARISON_SIZE,
                  "the orbits part%s: %s agree to %.1e until %s = %s, then the difference grows to %.1e, as on a "
                  "chaotic orbit, where it multiplies with every turn; this says nothing against the isomorphism "
                  "(see 'isoroll chaos')",
                  part, who, bound, clock, ISO_ROUNDED(agree_until(c, bound), 6), worst);
     else
         snprintf(
-            words, ISO_COMPARISON_WORDS,
+            words, ISO_COMPARISON_SIZE,
             "not shown to be the same orbit%s: %s differ by %.1e; steps of tolerance %s may add up to %.1e; if a "
             "smaller --tol makes the difference smaller, it is the error of the method",
             part, who, worst, ISO_SHORT(scene->tolerance), bound);
@@ -203,7 +203,7 @@ void iso_compare_print(FILE *to, const iso_scene *scene, const void *options, co
     const size_t rows = iso_record_rows(c->difference),
                  wanted = (size_t)fmin(((const iso_compare_request *)options)->rows, 1e9);
     const size_t shown = wanted < rows ? wanted : rows;
-    char words[ISO_COMPARISON_WORDS];
+    char words[ISO_COMPARISON_SIZE];
     if (rows == 0) return;
     print_head(to, scene, c);
     print_model(to, c, ISO_BALL, shown, rows);
@@ -212,6 +212,6 @@ void iso_compare_print(FILE *to, const iso_scene *scene, const void *options, co
     print_integrals(to, c);
     print_differences(to, c, rows);
     double worst;
-    iso_comparison_words(scene, c, &worst, words);
+    iso_comparison_text(scene, c, &worst, words);
     fprintf(to, "\n%s\n", words);
 }

@@ -17,17 +17,6 @@
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
 
-/* An observer whose states are only columns is left out if no column shows them. */
-static void leave_out_unseen(iso_effects *effects, const int columns[], int count)
-{
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
-        const iso_effect *effect = iso_effect_list[e];
-        bool seen = !(effect->observes && effect->states && effect->columns);
-        for (int i = 0; i < count; i++) seen = seen || iso_column_effect(columns[i]) == e;
-        effects->on[e] = effects->on[e] && seen;
-    }
-}
-
 /* Options of the orbit that fills these columns (iso_scene_column_list) and computes nothing else. Writes *effects; the
  * options point to it. */
 static iso_orbit_options orbit_options(const iso_scene *scene, const int columns[], int count, iso_effects *effects)
@@ -42,7 +31,13 @@ static iso_orbit_options orbit_options(const iso_scene *scene, const int columns
         M = M || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_POINT + 3);
     }
     *effects = scene->effects;
-    leave_out_unseen(effects, columns, count);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS;
+         e++) { /* an observer with states is left out if no column shows them */
+        const iso_effect *effect = iso_effect_list[e];
+        bool seen = !(effect->observes && effect->states && effect->columns);
+        for (int i = 0; i < count; i++) seen = seen || iso_column_effect(columns[i]) == e;
+        effects->on[e] = effects->on[e] && seen;
+    }
     ball = ball || iso_effects_ball_only(effects); /* to see where contact is lost */
     o.effects = effects;
     o.shown = ball && point ? ISO_SHOW_BOTH
@@ -235,15 +230,6 @@ static void end_errors(runner *r, iso_status status, const char *words)
     snprintf(r->result->error_words, sizeof r->result->error_words, "%s", words);
 }
 
-/* Before a row is given away its error is found; only a stop keeps it back. */
-static iso_status add_error(runner *r, const iso_sample *sample)
-{
-    const iso_status status = r->errors ? iso_error_finder_add(r->errors, sample) : ISO_OK;
-    if (status == ISO_STOPPED) return status;
-    if (status != ISO_OK) end_errors(r, status, iso_context_message(r->ctx));
-    return ISO_OK;
-}
-
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
 static iso_status write_row(runner *r, const double row[])
@@ -261,8 +247,10 @@ static iso_status work_on(runner *r, iso_asked_time asked)
     bool there = false;
     if (!iso_context_goes_on(r->ctx)) return iso_context_stopped(r->ctx);
     iso_status status = find_sample(r, asked.time, &sample, &there);
-    if (status == ISO_OK && there) status = add_error(r, &sample);
     if (status != ISO_OK || !there) return status;
+    if (r->errors) status = iso_error_finder_add(r->errors, &sample); /* before the row is given away */
+    if (status == ISO_STOPPED) return status;
+    if (status != ISO_OK) end_errors(r, status, iso_context_message(r->ctx));
     for (int c = 0; c < r->count; c++) row[c] = iso_sample_column(&sample, r->columns[c]);
     if (!r->order) return write_row(r, row);
     r->found[asked.row] = true;

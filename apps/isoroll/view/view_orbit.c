@@ -71,7 +71,7 @@ static void keep_note(void *page, const char *text)
 iso_status view_run(iso_context *ctx, const iso_scene *scene, const double times[], size_t count, view_page *page,
                     iso_record **rows)
 {
-    const iso_sink sink = {.note = keep_note, .progress = progress_told, .data = page};
+    const iso_sink sink = {.note = keep_note, .progress = progress_sink, .data = page};
     const iso_run_options o = {.times = times, .count = count};
     *rows = NULL;
     const iso_status status = iso_run(ctx, scene, &o, &sink, rows, NULL);

@@ -112,18 +112,6 @@ static iso_status find_start(const checker *c, const checked_model *m, const dou
     return iso_context_fail(c->ctx, status, "", "row %zu: %s", c->number, iso_context_message(c->ctx));
 }
 
-/* The level that H of a point should have: the one that the lines state, or 0 where the record has a ball's columns or
- * clocks; else any. */
-static void find_level(const checker *c, checked_model *m)
-{
-    const iso_units *units = iso_orbit_units(m->orbit);
-    const double level = iso_effects_level(&c->effects) / iso_unit(units, iso_level_dimension());
-    const bool twin = c->columns[ISO_CLOCK_T] >= 0 || c->columns[ISO_CLOCK_TAU] >= 0 || c->model[ISO_BALL].there;
-    m->level = iso_effects_have_level(&c->effects) ? iso_coupling(&units->own, level) : 0;
-    m->on_level = twin || iso_effects_have_level(&c->effects);
-    m->energy = m->on_level && m->kind == ISO_POINT ? m->level : (double)NAN;
-}
-
 /* The first row of an orbit gives the values, but all orbits of a file have the energy of its first row. */
 static void expect(checked_model *m, const iso_sample *first)
 {
@@ -143,7 +131,8 @@ static void check_integrals(const checker *c, checked_model *m, const iso_sample
     }
 }
 
-/* The orbit of the first row. */
+/* The orbit of the first row, and the level that H of a point should have: the one that the lines state, or 0 where the
+ * record has a ball's columns or clocks; else any. */
 static iso_status open_first(checker *c, checked_model *m, const double row[])
 {
     iso_start start;
@@ -153,7 +142,13 @@ static iso_status open_first(checker *c, checked_model *m, const double row[])
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &effects;
     ISO_TRY(iso_orbit_create(c->ctx, c->params, &start, &o, &m->orbit));
-    find_level(c, m);
+    const iso_units *units = iso_orbit_units(m->orbit);
+    const bool level = iso_effects_have_level(&c->effects);
+    m->on_level = level || c->columns[ISO_CLOCK_T] >= 0 || c->columns[ISO_CLOCK_TAU] >= 0 || c->model[ISO_BALL].there;
+    m->level =
+        level ? iso_coupling(&units->own, iso_effects_level(&c->effects) / iso_unit(units, iso_level_dimension()))
+              : 0;
+    m->energy = m->on_level && m->kind == ISO_POINT ? m->level : (double)NAN;
     return ISO_OK;
 }
 
@@ -173,17 +168,6 @@ static iso_status check_model(checker *c, checked_model *m, const double row[])
     return iso_checker_flow_begin(c, m, row);
 }
 
-static void check_map(checker *c, const double row[])
-{
-    double ball[ISO_STATE], point[ISO_STATE];
-    iso_row_state(c->columns, ISO_BALL, row, ball);
-    iso_row_state(c->columns, ISO_POINT, row, point);
-    iso_ball_to_point(&c->units.own, ball, ball);
-    scale(ball, iso_unit(&c->units, iso_system_point.fast_dimension));
-    iso_checker_note(&c->map, "map", "the ball's point (18) against the record's", iso_distance(ball, point),
-                     c->number);
-}
-
 iso_status iso_checking_put(iso_checking *c, const double row[])
 {
     ISO_DEFAULT_ARITHMETIC;
@@ -192,27 +176,27 @@ iso_status iso_checking_put(iso_checking *c, const double row[])
     ISO_TRY(measure_clocks(c, row));
     for (int k = 0; k < 2; k++)
         if (c->model[k].there) ISO_TRY(check_model(c, &c->model[k], row));
-    if (c->model[0].there && c->model[1].there) check_map(c, row);
     c->begins = false;
+    if (!c->model[ISO_BALL].there || !c->model[ISO_POINT].there) return ISO_OK;
+    double ball[ISO_STATE], point[ISO_STATE];
+    iso_row_state(c->columns, ISO_BALL, row, ball);
+    iso_row_state(c->columns, ISO_POINT, row, point);
+    iso_ball_to_point(&c->units.own, ball, ball);
+    scale(ball, iso_unit(&c->units, iso_system_point.fast_dimension));
+    iso_checker_note(&c->map, "map", "the ball's point (18) against the record's", iso_distance(ball, point),
+                     c->number);
     return ISO_OK;
 }
 
 /* --- the answer ------------------------------------------------------------------------------------------------- */
 
-/* The steps of a clock are measured by its whole length. */
-static double size_of(const checker *c, const iso_residual *r)
-{
-    for (int k = 0; k < ISO_CLOCKS; k++)
-        if (strncmp(r->name, "clock ", 6) == 0 && strcmp(r->name + 6, iso_clock_name((iso_clock)k)) == 0)
-            return c->span[k];
-    return 1;
-}
-
 static void add(const checker *c, const iso_residuals *found, iso_residuals *all)
 {
     for (int i = 0; i < found->count; i++) {
         const iso_residual *r = &found->residual[i];
-        const double size = size_of(c, r);
+        double size = 1; /* the steps of a clock are measured by its whole length */
+        for (int k = 0; k < ISO_CLOCKS && strncmp(r->name, "clock ", 6) == 0; k++)
+            if (strcmp(r->name + 6, iso_clock_name((iso_clock)k)) == 0) size = c->span[k];
         iso_residual *to = residual_of(all, r->name, r->what);
         if (to && size > 0 && r->worst / size > to->worst) to->worst = r->worst / size, to->row = r->row;
     }
@@ -296,14 +280,6 @@ static const iso_field drift_fields[] = {
     ISO_FIELD_END,
 };
 
-/* What an integral is, in lines: "h.doc", ... */
-static iso_status describe(iso_context *ctx, const iso_drift *d, iso_record *drifts)
-{
-    const iso_field one[] = {{.name = d->integral->name, .type = ISO_FIELD_STRUCT, .fields = drift_fields, .doc = ""},
-                             ISO_FIELD_END};
-    return d->integral->known == ISO_ANY_VALUE ? iso_record_set_fields(ctx, drifts, one, d) : ISO_OK;
-}
-
 static iso_status record_drifts(checker *c, checked_model *m, const iso_record *rows, iso_record **drifts)
 {
     iso_sample sample;
@@ -320,7 +296,12 @@ static iso_status record_drifts(checker *c, checked_model *m, const iso_record *
         iso_watch_follow(m->orbit, &sample, m->integral, m->count);
         for (int i = 0; i < m->count; i++) to[1 + i] = fabs(m->integral[i].now);
     }
-    for (int i = 0; status == ISO_OK && i < m->count; i++) status = describe(c->ctx, &m->integral[i], *drifts);
+    for (int i = 0; status == ISO_OK && i < m->count; i++) { /* what an integral is, in lines: "h.doc", ... */
+        const iso_drift *d = &m->integral[i];
+        const iso_field one[] = {
+            {.name = d->integral->name, .type = ISO_FIELD_STRUCT, .fields = drift_fields, .doc = ""}, ISO_FIELD_END};
+        if (d->integral->known == ISO_ANY_VALUE) status = iso_record_set_fields(c->ctx, *drifts, one, d);
+    }
     return status;
 }
 

@@ -54,18 +54,14 @@ static void check_columns(checker *c, iso_residuals *found, const checked *k, co
     if (any && size > 0) iso_checker_note(found, name, "columns of effects, row to row", error / size, c->number);
 }
 
-static bool same_report(const iso_effect_column *a, const iso_effect_column *b)
-{
-    return b->name && a->checked_as && b->checked_as && strcmp(a->checked_as, b->checked_as) == 0;
-}
-
 void iso_checker_effects_flow(checker *c, iso_residuals *found, const iso_sample *flow, const double row[])
 {
     int first = ISO_COLUMN_EFFECTS;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         for (const iso_effect_column *g = iso_effect_list[e]->columns; g && g->name; g++) {
             checked k = {.group = g, .effect = e, .first = first, .count = g->count};
-            for (; same_report(g, g + 1); g++) k.count += g[1].count;
+            for (; g->checked_as && g[1].name && g[1].checked_as && strcmp(g->checked_as, g[1].checked_as) == 0; g++)
+                k.count += g[1].count;
             if (g->checked_as) check_columns(c, found, &k, flow, row);
             first += k.count;
         }

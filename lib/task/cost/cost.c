@@ -11,6 +11,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/math_impl.h"
+#include "base/vec3_impl.h"
 #include "task/cost/cost_impl.h"
 
 /* How the time is divided: REFERENCES is the part for references. Of the rest each cell may use so much that it can
@@ -111,19 +112,6 @@ static iso_status choose_cells(measurer *m)
 
 /* --- errors ----------------------------------------------------------------------------------------------------- */
 
-/* The closed solution is compared with the second reference, because the first may be itself. */
-static void measure_errors(measurer *m, const cost_track *track, iso_cost_cell *cell)
-{
-    const cost_reference *r = &m->reference;
-    const cost_track *against = cell->backend == ISO_BACKEND_EXACT ? &r->second : &r->first;
-    cell->error = cell->backend == ISO_BACKEND_EXACT && !r->doubted ? NAN : iso_cost_distance(track, against);
-    cell->energy_drift = track->energy_drift;
-    cell->constraint_drift = track->constraint_drift;
-    cell->statistics = track->statistics;
-    cell->below = cell->error < 3 * r->uncertainty;
-    if (cell->backend == ISO_BACKEND_EXACT) cell->below = false;
-}
-
 static void __attribute__((format(printf, 3, 4)))
 fail(iso_cost_cell *cell, iso_status status, const char *format, ...)
 {
@@ -138,6 +126,9 @@ fail(iso_cost_cell *cell, iso_status status, const char *format, ...)
  * the time of the first run. */
 static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double *about)
 {
+    const cost_reference *r = &m->reference;
+    const bool exact = cell->backend == ISO_BACKEND_EXACT;
+    const cost_track *against = exact ? &r->second : &r->first;
     cost_track track;
     iso_status status = iso_cost_track_make(&m->p, m->reference.first.times, m->time, &track);
     if (status != ISO_OK) {
@@ -149,24 +140,20 @@ static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double 
     if (status == ISO_OK) {
         cell->status = ISO_OK;
         cell->why[0] = 0;
-        measure_errors(m, &track, cell);
+        /* the closed solution is compared with the second reference, because the first may be itself */
+        cell->error = exact && !r->doubted ? NAN : iso_cost_distance(&track, against);
+        cell->energy_drift = track.energy_drift;
+        cell->constraint_drift = track.constraint_drift;
+        cell->statistics = track.statistics;
+        cell->below = !exact && cell->error < 3 * r->uncertainty;
         if (iso_cost_walk(&m->p, cell->backend, cell->method, cell->tolerance, true, 2 * seconds, &track) == ISO_OK)
-            cell->clock_error = iso_cost_clock_distance(
-                &track, cell->backend == ISO_BACKEND_EXACT ? &m->reference.second : &m->reference.first);
+            cell->clock_error = iso_cost_clock_distance(&track, against);
     } else if (status != ISO_STOPPED) {
         fail(cell, status, "%s", iso_context_message(m->p.ctx));
     } else if (!iso_cost_is_stopped(&m->p)) {
         fail(cell, ISO_STOPPED, "it would take more than %.2g s, its share of the time", seconds);
     }
     iso_cost_track_free(&track);
-}
-
-/* Leaves out the tighter tolerances of a series that takes too long. */
-static void give_up(measurer *m, const iso_cost_series *series, int from)
-{
-    for (int i = from; i < series->count; i++)
-        fail(&m->out->cell[series->first + i], ISO_STOPPED, "not tried: it takes too long at tolerance %s",
-             ISO_SHORT(m->tolerance[from - 1]));
 }
 
 /* How long the next of `left` cells may run. */
@@ -194,7 +181,9 @@ static void check_cells(measurer *m, double about[])
             report_progress(m, cell->method ? cell->method->name : "exact");
             if (cell->status != ISO_STOPPED || iso_cost_is_stopped(&m->p)) continue;
             alive[l] = false;
-            give_up(m, series, i + 1);
+            for (int j = i + 1; j < series->count; j++)
+                fail(&m->out->cell[series->first + j], ISO_STOPPED, "not tried: it takes too long at tolerance %s",
+                     ISO_SHORT(m->tolerance[i]));
             left -= series->count - i - 1;
         }
 }
@@ -231,20 +220,6 @@ static void time_cells(measurer *m, const double about[])
 
 /* --- all of it -------------------------------------------------------------------------------------------------- */
 
-/* The normal's speed is |k omega x n|. */
-static double count_turns(const measurer *m)
-{
-    const cost_track *t = &m->reference.first;
-    double mean = 0;
-    for (int i = 0; i < t->reached; i++) {
-        const double *w = t->row[i].ball, *n = w + 3;
-        const double x = w[1] * n[2] - w[2] * n[1], y = w[2] * n[0] - w[0] * n[2], z = w[0] * n[1] - w[1] * n[0];
-        mean += hypot(hypot(x, y), z) / t->reached;
-    }
-    const double end = m->p.clock == ISO_CLOCK_T ? m->p.end : t->row[t->reached - 1].clock;
-    return fabs(m->p.scene->params.k * mean * end) / (2 * ISO_PI);
-}
-
 static iso_status find_reference(measurer *m)
 {
     const int times = m->options->times > 0 ? m->options->times : 20;
@@ -256,7 +231,15 @@ static iso_status find_reference(measurer *m)
     snprintf(m->out->reference, sizeof m->out->reference, "%s", m->reference.what);
     snprintf(m->out->second, sizeof m->out->second, "%s", m->reference.second_what);
     m->out->uncertainty = m->reference.uncertainty;
-    m->out->turns = count_turns(m);
+    const cost_track *t = &m->reference.first;
+    double mean = 0;
+    for (int i = 0; i < t->reached; i++) { /* the normal's speed is |k omega x n| */
+        double speed[3];
+        cross(t->row[i].ball, t->row[i].ball + 3, speed);
+        mean += hypot(hypot(speed[0], speed[1]), speed[2]) / t->reached;
+    }
+    const double end = m->p.clock == ISO_CLOCK_T ? m->p.end : t->row[t->reached - 1].clock;
+    m->out->turns = fabs(m->p.scene->params.k * mean * end) / (2 * ISO_PI);
     return ISO_OK;
 }
 
@@ -276,7 +259,7 @@ static iso_status measure(measurer *m)
         iso_cost_times_read(times, &c->cell[i]);
     }
     free(about);
-    iso_cost_judge(c);
+    iso_cost_evaluate(c);
     c->complete = !iso_cost_is_stopped(&m->p);
     return c->complete ? ISO_OK : iso_context_stopped(m->p.user);
 }

@@ -98,7 +98,7 @@ void iso_cost_times_read(const cost_times *times, iso_cost_cell *cell);
 double iso_cost_slope(int count, const double x[], const double y[], double apart);
 
 /* Fits the series, and finds the cells that are pareto. */
-void iso_cost_judge(iso_cost *cost);
+void iso_cost_evaluate(iso_cost *cost);
 
 /* Whether a cell has a result. */
 bool iso_cost_is_measured(const void *cell);

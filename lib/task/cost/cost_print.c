@@ -66,26 +66,24 @@ static void print_name(FILE *to, const iso_cost_cell *c, const char *between)
     fprintf(to, "%s%s", between, c->method ? ISO_SHORT(c->tolerance) : "-");
 }
 
-static void print_cell(FILE *to, const iso_cost_cell *c)
-{
-    char median[COST_SECONDS], setup[COST_SECONDS];
-    print_name(to, c, "\t");
-    fprintf(to, isnan(c->error) ? "\t-" : "\t%s%s%.1e", c->pareto ? "*" : "", c->below ? "~" : "", c->error);
-    fprintf(to, isnan(c->clock_error) ? "\t-" : "\t%.1e", c->clock_error);
-    fprintf(to, isnan(c->energy_drift) ? "\t-" : "\t%.1e", c->energy_drift);
-    fprintf(to, "\t%s\t%.0f %%\t%ld\t%ld\t%s\n", seconds_text(c->median, median),
-            100 * (c->slowest - c->fastest) / c->median, c->statistics.steps, c->statistics.rhs,
-            seconds_text(c->setup, setup));
-}
-
 static void print_cells(FILE *to, const iso_cost *cost, const iso_cost_series *const *series)
 {
+    char median[COST_SECONDS], setup[COST_SECONDS];
     fputs("\n", to);
     iso_table_begin(to, 3);
     fputs("backend\tmethod\ttol\terror\tclocks\tenergy\ttime\tspread\tsteps\trhs\tset-up\n", to);
     for (int l = 0; l < cost->series_count; l++)
-        for (int i = series[l]->first; i < series[l]->first + series[l]->count; i++)
-            if (iso_cost_is_measured(&cost->cell[i])) print_cell(to, &cost->cell[i]);
+        for (int i = series[l]->first; i < series[l]->first + series[l]->count; i++) {
+            const iso_cost_cell *c = &cost->cell[i];
+            if (!iso_cost_is_measured(c)) continue;
+            print_name(to, c, "\t");
+            fprintf(to, isnan(c->error) ? "\t-" : "\t%s%s%.1e", c->pareto ? "*" : "", c->below ? "~" : "", c->error);
+            fprintf(to, isnan(c->clock_error) ? "\t-" : "\t%.1e", c->clock_error);
+            fprintf(to, isnan(c->energy_drift) ? "\t-" : "\t%.1e", c->energy_drift);
+            fprintf(to, "\t%s\t%.0f %%\t%ld\t%ld\t%s\n", seconds_text(c->median, median),
+                    100 * (c->slowest - c->fastest) / c->median, c->statistics.steps, c->statistics.rhs,
+                    seconds_text(c->setup, setup));
+        }
     iso_table_end(to);
     fprintf(to, "  *  nothing else is both more exact and faster\n"
                 "  ~  less than the uncertainty of the reference\n"

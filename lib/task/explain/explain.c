@@ -172,13 +172,6 @@ static void explain_integral(FILE *to, const char *whose, const iso_integral *i,
     if (!i->claimed && (!i->holds || i->holds(f)) == wanted) fprintf(to, "  %-5s %-10s %s\n", whose, i->name, i->doc);
 }
 
-static void explain_of_effects(FILE *to, const iso_system *system, const iso_problem *f, bool wanted)
-{
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_integral *i = iso_effect_integrals_of(iso_effect_list[e], system); i && i->name; i++)
-            if (f->effects.on[e]) explain_integral(to, system->name, i, f, wanted);
-}
-
 /* Those that the scene itself claims. */
 static void explain_claims(FILE *to, const iso_problem *f)
 {
@@ -202,7 +195,10 @@ static void explain_integrals(FILE *to, const iso_orbit *orbit)
             for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++)
                 if (!only || iso_systems[s] == only) explain_integral(to, iso_systems[s]->name, i, f, wanted);
         for (int s = 0; iso_systems[s]; s++)
-            if (!only || iso_systems[s] == only) explain_of_effects(to, iso_systems[s], f, wanted);
+            for (int e = 0; e < ISO_EFFECTS && (!only || iso_systems[s] == only); e++)
+                for (const iso_integral *i = iso_effect_integrals_of(iso_effect_list[e], iso_systems[s]);
+                     i && i->name; i++)
+                    if (f->effects.on[e]) explain_integral(to, iso_systems[s]->name, i, f, wanted);
     }
     explain_claims(to, f);
 }
