@@ -74,23 +74,17 @@ unsigned file_kind(const char *path, char table[ISO_KIND_SIZE])
 
 /* --- the refusal ------------------------------------------------------------------------------------------------ */
 
-/* The commands that take a kind, with commas between. */
-static void list_commands(unsigned kind, char list[200])
-{
-    *list = '\0';
-    for (int i = 0; commands[i]; i++) {
-        const size_t used = strlen(list);
-        if (commands[i]->takes & kind) snprintf(list + used, 200 - used, "%s%s", used ? ", " : "", commands[i]->name);
-    }
-}
-
 bool file_fits(const command *c, const char *path)
 {
-    char list[200], table[ISO_KIND_SIZE];
+    char list[200] = "", table[ISO_KIND_SIZE];
     const unsigned kind = c->takes ? file_kind(path, table) : 0;
     size_t i = 0;
     if (kind == 0 || c->takes & kind) return true;
-    list_commands(kind, list);
+    for (int n = 0; commands[n]; n++) { /* the commands that take it */
+        const size_t used = strlen(list);
+        if (commands[n]->takes & kind)
+            snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", commands[n]->name);
+    }
     if (kind == FILE_SCENE && c->takes & FILE_SWEEP)
         complain("%s: '%s' is a scene: a sweep has the keys scene, vary and measure; scenes are for: %s", c->name,
                  path, list);

@@ -22,16 +22,6 @@ static void print_lines(const char *text, int column, FILE *to)
     }
 }
 
-static void print_row(const option_row *r, FILE *to)
-{
-    const int length = (int)strlen(r->name), name = length > 10 ? length : 10; /* then fewer blanks */
-    char line[1024], letter[64] = "";
-    const char *argument = r->argument ? r->argument : "";
-    if (r->letter) snprintf(letter, sizeof letter, " (-%c%s%s)", r->letter, r->argument ? " " : "", argument);
-    snprintf(line, sizeof line, "  --%-*s %-*s  %s%s", name, r->name, 18 - name, argument, r->doc, letter);
-    iso_fold_line(to, line, strlen(line), width_of(to));
-}
-
 void help_command(const command *c, FILE *to)
 {
     char usage[128];
@@ -39,7 +29,15 @@ void help_command(const command *c, FILE *to)
     print_lines(usage, 0, to);
     print_lines(command_doc(c), 0, to);
     fputc('\n', to);
-    for (int i = 0; options_row(c, i); i++) print_row(options_row(c, i), to);
+    for (int i = 0; options_row(c, i); i++) {
+        const option_row *r = options_row(c, i);
+        const int length = (int)strlen(r->name), name = length > 10 ? length : 10; /* then fewer blanks */
+        const char *argument = r->argument ? r->argument : "";
+        char line[1024], letter[64] = "";
+        if (r->letter) snprintf(letter, sizeof letter, " (-%c%s%s)", r->letter, r->argument ? " " : "", argument);
+        snprintf(line, sizeof line, "  --%-*s %-*s  %s%s", name, r->name, 18 - name, argument, r->doc, letter);
+        iso_fold_line(to, line, strlen(line), width_of(to));
+    }
     fputc('\n', to);
     print_lines(c->description, 0, to);
     fputs("\nexample\n", to);

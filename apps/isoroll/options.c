@@ -93,27 +93,19 @@ static options_result wrong(const command *c, const char *what, const char *whic
     return OPTIONS_WRONG;
 }
 
-/* Writes the options that begin with `name` into `list`; returns their number. */
-static int begin_with(const command *c, const char *name, size_t length, char list[200])
-{
-    int count = 0;
-    *list = '\0';
-    for (int i = 0; options_row(c, i); i++) {
-        const char *one = options_row(c, i)->name;
-        if (strncmp(one, name, length) != 0 || strlen(list) + strlen(one) + 8 > 200) continue;
-        snprintf(list + strlen(list), 200 - strlen(list), "%s--%s", count++ > 0 ? ", " : "", one);
-    }
-    return count;
-}
-
 /* A long option that is not known, fits more than one, or has an argument that it does not take. */
 static options_result wrong_long(const command *c, const char *text)
 {
     const char *names[MOST_ROWS], *name = text + strspn(text, "-");
     const size_t length = strcspn(name, "=");
     size_t count = 0;
-    char list[200], bare[64];
-    const int fit = begin_with(c, name, length, list);
+    int fit = 0; /* options that begin with the name */
+    char list[200] = "", bare[64];
+    for (int i = 0; options_row(c, i); i++) {
+        const char *one = options_row(c, i)->name;
+        if (strncmp(one, name, length) != 0 || strlen(list) + strlen(one) + 8 > sizeof list) continue;
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s--%s", fit++ > 0 ? ", " : "", one);
+    }
     if (fit > 1) return complain("%s: ambiguous option %s: it fits %s", c->name, text, list), OPTIONS_WRONG;
     if (fit == 1) return complain("%s: %s: the option %s takes no argument", c->name, text, list), OPTIONS_WRONG;
     for (int i = 0; options_row(c, i) && count < MOST_ROWS; i++) names[count++] = options_row(c, i)->name;

@@ -111,16 +111,6 @@ static double number_of(const iso_record *r, int signal, int i, const char *key)
     return text && iso_number_read(text, strlen(text), &x) ? x : (double)NAN;
 }
 
-static const char *warning_of(const iso_record *r)
-{
-    const char *verdict = iso_record_get(r, "estimate.verdict");
-    if (verdict && strcmp(verdict, "chaotic") == 0)
-        return "this orbit is chaotic: it has no fixed frequencies, and these lines are of this stretch only";
-    if (verdict && strcmp(verdict, "undecided") == 0)
-        return "it is not decided whether this orbit has fixed frequencies: a longer one may tell";
-    return "";
-}
-
 /* Labels that have a place keep others away. */
 typedef struct labels {
     double at[2 * LABELLED], span;
@@ -151,10 +141,15 @@ static iso_status add_signal(iso_context *ctx, const iso_record *r, int signal, 
 
 static iso_status make_lines(iso_context *ctx, const iso_record *r, iso_picture *picture)
 {
-    const char *axis = iso_record_get(r, "estimate.axis"), *warning = warning_of(r);
+    const char *axis = iso_record_get(r, "estimate.axis"), *verdict = iso_record_get(r, "estimate.verdict"),
+               *warning = "";
     double low = INFINITY, high = -INFINITY, x;
     iso_record *lines;
     picture->layout = "frequencies";
+    if (verdict && strcmp(verdict, "chaotic") == 0)
+        warning = "this orbit is chaotic: it has no fixed frequencies, and these lines are of this stretch only";
+    if (verdict && strcmp(verdict, "undecided") == 0)
+        warning = "it is not decided whether this orbit has fixed frequencies: a longer one may tell";
     if (!axis) return ISO_FAIL_INPUT(ctx, "", "no picture: there is no map (h, F), and no frequency is estimated");
     ISO_TRY(iso_picture_add(ctx, picture, "lines", "signal frequency amplitude label'", &lines));
     for (int s = 0; s < 2; s++)

@@ -207,24 +207,6 @@ static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
 
 /* --- for how long ----------------------------------------------------------------------------------------------- */
 
-/* What goes on to a time only has no number of turns, and the other way round. */
-static iso_status check_until(iso_sweep_file *f, const yaml_node_t *until)
-{
-    const bool turns = !isnan(f->plan.turns);
-    bool used = false;
-    for (int i = 0; i < f->plan.requests; i++) {
-        const char *name = f->plan.request[i].name;
-        const iso_study *study = iso_sweep_study(name);
-        const bool by_turns = iso_study_option_find(study, "turns", 5),
-                   by_time = iso_study_option_find(study, "t-end", 5);
-        used = used || (turns ? by_turns : by_time);
-        if (by_turns != by_time && by_turns != turns)
-            return ISO_FAIL_AT(f, until, "'%s' needs 'until: {%s: ...}'", name, turns ? "time" : "turns");
-    }
-    if (used) return ISO_OK;
-    return ISO_FAIL_AT(f, until, "no quantity in 'measure' uses %s", turns ? "turns" : "a time");
-}
-
 static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until)
 {
     static const iso_sweep_setting settings[] = {
@@ -237,7 +219,20 @@ static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until)
     f->plan.turns = value[0];
     f->plan.time = value[1];
     if (isnan(value[0]) == isnan(value[1])) return ISO_FAIL_AT(f, until, "'until' has one of 'turns' and 'time'");
-    return check_until(f, until);
+    const bool turns = !isnan(value[0]);
+    bool used = false;
+    for (int i = 0; i < f->plan.requests;
+         i++) { /* what goes on to a time only has no turns, and the other way round */
+        const iso_study *study = iso_sweep_study(f->plan.request[i].name);
+        const bool by_turns = iso_study_option_find(study, "turns", 5),
+                   by_time = iso_study_option_find(study, "t-end", 5);
+        used = used || (turns ? by_turns : by_time);
+        if (by_turns != by_time && by_turns != turns)
+            return ISO_FAIL_AT(f, until, "'%s' needs 'until: {%s: ...}'", f->plan.request[i].name,
+                               turns ? "time" : "turns");
+    }
+    if (used) return ISO_OK;
+    return ISO_FAIL_AT(f, until, "no quantity in 'measure' uses %s", turns ? "turns" : "a time");
 }
 
 /* Refuses numbers that vary but are not used: `until` replaces the scene's end, and a quantity's own option replaces

@@ -40,23 +40,10 @@ static bool find_number(const iso_draft_number list[], int count, iso_sweep_axis
     return false;
 }
 
-/* A place on the section, or the level. */
-static bool find_place(iso_sweep_axis *a)
-{
-    static const char *const names[] = {"l", "x", "start", "level"};
-    for (int i = 0; i < 4; i++) {
-        if (strcmp(a->name, names[i]) != 0) continue;
-        a->target = i == 3 ? ISO_TO_LEVEL : ISO_TO_CHART;
-        a->chart = i;
-        a->width = i == 2 ? 2 : 1;
-        return true;
-    }
-    return false;
-}
-
 static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a)
 {
-    static const char *const others[] = {"l", "x", "start", "level", "J1", "J2", "J3", "J2/J1", "J3/J1"};
+    static const char *const others[] = {/* first places on the section, and the level */
+                                         "l", "x", "start", "level", "J1", "J2", "J3", "J2/J1", "J3/J1"};
     iso_draft_number list[ISO_SWEEP_NAMES];
     const char *names[ISO_SWEEP_NAMES + 9];
     size_t named = 0;
@@ -64,7 +51,14 @@ static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_swe
     if (key->type != YAML_SCALAR_NODE || key->data.scalar.length >= ISO_NAME_SIZE)
         return ISO_FAIL_AT(f, key, "a key should be the name of a number of the scene");
     snprintf(a->name, sizeof a->name, "%s", (const char *)key->data.scalar.value);
-    if (find_place(a) || find_number(list, count, a)) return ISO_OK;
+    for (int i = 0; i < 4; i++) {
+        if (strcmp(a->name, others[i]) != 0) continue;
+        a->target = i == 3 ? ISO_TO_LEVEL : ISO_TO_CHART;
+        a->chart = i;
+        a->width = i == 2 ? 2 : 1;
+        return ISO_OK;
+    }
+    if (find_number(list, count, a)) return ISO_OK;
     for (int i = 0; i < count; i++) names[named++] = list[i].name;
     const bool moments = strstr(a->name, "J") != NULL;
     for (size_t i = 0; i < (moments ? 9u : 4u); i++) names[named++] = others[i];
@@ -188,15 +182,6 @@ static iso_status read_values(iso_sweep_file *f, const yaml_node_t *node, iso_sw
 
 /* --- what must hold --------------------------------------------------------------------------------------------- */
 
-static iso_status check_tolerance(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)
-{
-    bool good = true;
-    if (strcmp(a->name, "tolerance") != 0) return ISO_OK;
-    for (size_t i = 0; a->list && i < a->count; i++) good = good && iso_tolerance_is_good(a->list[i]);
-    if (!a->list) good = iso_tolerance_is_good(a->from) && iso_tolerance_is_good(a->to);
-    return good ? ISO_OK : ISO_FAIL_AT(f, node, "'tolerance' must be in " ISO_TOLERANCE_RANGE);
-}
-
 static iso_status check_chart(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)
 {
     const iso_effect *effect = iso_effects_off_chart(&f->draft.scene.effects);
@@ -231,20 +216,6 @@ static iso_status check_level(iso_sweep_file *f, const yaml_node_t *key, iso_swe
         if (strcmp(b->name, needed) == 0 && !point)
             return ISO_FAIL_AT(f, key, "'level' and '%s' set the same number", needed);
     return ISO_OK;
-}
-
-/* l and x are both there, once. */
-static iso_status check_start(iso_sweep_file *f, const yaml_node_t *vary)
-{
-    int have[2] = {0, 0};
-    for (int i = 0; i < f->axes; i++) {
-        const iso_sweep_axis *a = &f->axis[i];
-        for (int c = 0; c < 2; c++) have[c] += a->target == ISO_TO_CHART && (a->chart == c || a->chart == 2);
-    }
-    if (!f->on_section || (have[0] == 1 && have[1] == 1)) return ISO_OK;
-    return iso_yaml_fail(
-        &f->yaml, vary->start_mark,
-        "a start on the section is 'l' and 'x' (one of them may be a single number), or 'start' alone");
 }
 
 /* J2 and J2/J1 both set J2; and J1 behind J2/J1 changes the ratio in the row. */
@@ -284,7 +255,10 @@ static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
     iso_sweep_axis *a = &f->axis[f->axes++];
     ISO_TRY(find_target(f, key, a));
     ISO_TRY(read_values(f, value, a));
-    ISO_TRY(check_tolerance(f, value, a));
+    bool good = a->list || (iso_tolerance_is_good(a->from) && iso_tolerance_is_good(a->to));
+    for (size_t i = 0; a->list && i < a->count; i++) good = good && iso_tolerance_is_good(a->list[i]);
+    if (strcmp(a->name, "tolerance") == 0 && !good)
+        return ISO_FAIL_AT(f, value, "'tolerance' must be in " ISO_TOLERANCE_RANGE);
     ISO_TRY(check_chart(f, value, a));
     ISO_TRY(check_level(f, key, a));
     ISO_TRY(name_columns(f, key, a));
@@ -341,7 +315,14 @@ iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const
     if (!f->column) return iso_context_no_memory(f->yaml.ctx, "a sweep");
     const yaml_node_pair_t *end = vary->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = vary->data.mapping.pairs.start; p < end; p++) ISO_TRY(read_axis(f, p));
-    ISO_TRY(check_start(f, vary));
+    int have[2] = {0, 0}; /* l and x are both there, once */
+    for (int i = 0; i < f->axes; i++)
+        for (int c = 0; c < 2; c++)
+            have[c] += f->axis[i].target == ISO_TO_CHART && (f->axis[i].chart == c || f->axis[i].chart == 2);
+    if (f->on_section && (have[0] != 1 || have[1] != 1))
+        return ISO_FAIL_AT(f, vary,
+                           "a start on the section is 'l' and 'x' (one of them may be a single number), or "
+                           "'start' alone");
     ISO_TRY(read_samples(f, vary, samples));
     size_t *points = &f->plan.family.count;
     *points = f->drawn > 0 ? f->samples : 1;

@@ -92,30 +92,26 @@ static void note(const runner *r, const char *text)
 
 /* --- the header ------------------------------------------------------------------------------------------------- */
 
-static iso_status describe(const runner *r, iso_record **header)
+static iso_status write_header(const runner *r)
 {
     const char *names[ISO_MAX_COLUMNS];
     const iso_scene *scene = r->scene;
     const iso_models as = scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
+    iso_record *h = NULL;
     for (int i = 0; i < r->count; i++) names[i] = iso_column_name(r->columns[i]);
-    ISO_TRY(iso_record_create(r->ctx, (size_t)r->count, names, header));
-    ISO_TRY(iso_record_describe(r->ctx, *header, iso_models_name((int)as), &scene->params, r->orbit));
-    ISO_TRY(iso_record_set(r->ctx, *header, "backend", iso_backend_name((int)iso_orbit_backend(r->orbit))));
-    ISO_TRY(iso_record_set(r->ctx, *header, "method", iso_orbit_method(r->orbit)->name));
-    if (!iso_orbit_exact(r->orbit))
-        ISO_TRY(iso_record_set_numbers(r->ctx, *header, "tolerance", 1, &scene->tolerance));
-    return iso_record_set(r->ctx, *header, "isoroll", ISO_VERSION);
-}
-
-static iso_status write_header(const runner *r)
-{
-    iso_record *header = NULL;
-    iso_status status = describe(r, &header);
-    if (status == ISO_OK && r->sink->header) status = r->sink->header(r->sink->data, 0, header);
+    iso_status status = iso_record_create(r->ctx, (size_t)r->count, names, &h);
+    if (status == ISO_OK) status = iso_record_describe(r->ctx, h, iso_models_name((int)as), &scene->params, r->orbit);
+    if (status == ISO_OK)
+        status = iso_record_set(r->ctx, h, "backend", iso_backend_name((int)iso_orbit_backend(r->orbit)));
+    if (status == ISO_OK) status = iso_record_set(r->ctx, h, "method", iso_orbit_method(r->orbit)->name);
+    if (status == ISO_OK && !iso_orbit_exact(r->orbit))
+        status = iso_record_set_numbers(r->ctx, h, "tolerance", 1, &scene->tolerance);
+    if (status == ISO_OK) status = iso_record_set(r->ctx, h, "isoroll", ISO_VERSION);
+    if (status == ISO_OK && r->sink->header) status = r->sink->header(r->sink->data, 0, h);
     if (status == ISO_OK && r->rows)
-        *r->rows = header;
+        *r->rows = h;
     else
-        iso_record_free(header);
+        iso_record_free(h);
     return status;
 }
 

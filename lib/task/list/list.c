@@ -88,30 +88,26 @@ static void list_integrals(FILE *to)
             fprintf(to, "  %-18s %-10s %s\n", iso_effect_list[e]->name, i->name, i->doc);
 }
 
-/* A vector has its length behind its name, a key that may be left out is in brackets. */
-static void list_numbers(FILE *to, const iso_effect *effect)
-{
-    if (effect->numbers) fprintf(to, "  %-22s numbers:", "");
-    if (effect->expressions)
-        fprintf(to, " %s [parameters]", effect->expressions_key ? effect->expressions_key : effect->expressions[0]);
-    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
-        if (n->hidden) continue;
-        fprintf(to, n->required ? " %s" : " [%s", n->name);
-        if (n->count == 9)
-            fprintf(to, "(3x3)");
-        else if (n->count > 1)
-            fprintf(to, "(%d)", n->count);
-        fprintf(to, n->required ? "" : "]");
-    }
-    if (effect->numbers) fprintf(to, "\n");
-}
-
 static void list_effects(FILE *to)
 {
     for (int e = 0; e < ISO_EFFECTS; e++) {
         const iso_effect *effect = iso_effect_list[e];
         fprintf(to, "  %-22s %s\n", effect->name, effect->doc);
-        list_numbers(to, effect);
+        /* a vector has its length behind its name, a key that may be left out is in brackets */
+        if (effect->numbers) fprintf(to, "  %-22s numbers:", "");
+        if (effect->expressions)
+            fprintf(to, " %s [parameters]",
+                    effect->expressions_key ? effect->expressions_key : effect->expressions[0]);
+        for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
+            if (n->hidden) continue;
+            fprintf(to, n->required ? " %s" : " [%s", n->name);
+            if (n->count == 9)
+                fprintf(to, "(3x3)");
+            else if (n->count > 1)
+                fprintf(to, "(%d)", n->count);
+            fprintf(to, n->required ? "" : "]");
+        }
+        if (effect->numbers) fprintf(to, "\n");
         if (effect->states) fprintf(to, "  %-22s states: %s\n", "", effect->states_doc);
         const char *broken = iso_effect_why_broken(effect), *name = effect->point_name; /* of a scene of a point */
         fprintf(to, "  %-22s isomorphism: %s%s%s%s%s\n", "", broken ? "lost, " : "kept", broken ? broken : "",
