@@ -26,10 +26,6 @@ extern const iso_picture_maker iso_picture_branch, iso_picture_chaos, iso_pictur
     iso_picture_compare, iso_picture_cost, iso_picture_frequencies, iso_picture_indicators, iso_picture_periodic,
     iso_picture_section, iso_picture_splitting, iso_picture_sweep, iso_picture_sweep_part, iso_picture_trajectory;
 
-/* Makes the table as it is, called `table`, of at most so many columns. */
-enum { ISO_PICTURE_MOST_COLUMNS = 200 };
-iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *request, iso_picture *picture);
-
 /* The first of the further tables of this kind; NULL: there is none. */
 const iso_record *iso_picture_given(const iso_picture_request *request, const char *kind);
 

@@ -263,36 +263,6 @@ iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *probl
 
 /* --- starts and scenes ------------------------------------------------------------------------------------------ */
 
-/* Asks an orbit for the coupling and the level of the start: the scene may not state them. */
-iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
-                                   double point[ISO_STATE])
-{
-    ISO_DEFAULT_ARITHMETIC;
-    iso_orbit *orbit;
-    iso_sample sample;
-    iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    iso_effects effects = iso_scene_acting(scene);
-    if (scene->start.model != ISO_POINT)
-        return ISO_FAIL_INPUT(ctx, "", "this scene is a ball already: an analogue is of a 'point'");
-    const iso_effect *more = iso_effects_beyond_level(&effects); /* changes the potential, or there is no twin */
-    if (more)
-        return iso_context_fail(ctx, ISO_NOT_MAPPED, more->name,
-                                "'%s' is more than V = -eps (gamma, J gamma)^(-1/k): take it out", more->name);
-    o.effects = &effects;
-    ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit));
-    iso_status status = iso_orbit_at(orbit, 0, &sample);
-    if (status == ISO_OK) {
-        effects = iso_orbit_effects(orbit);
-        *problem = (iso_analogue_problem){.k = scene->params.k, .eps = iso_orbit_coupling(orbit)};
-        copy(scene->params.J, problem->J, 3);
-        const double c = iso_effects_level(&effects);
-        problem->energy = iso_effects_have_level(&effects) ? iso_coupling(&scene->params, c) : 0;
-        copy(sample.point, point, ISO_STATE);
-    }
-    iso_orbit_free(orbit);
-    return status;
-}
-
 /* Begins in a direction off all planes of symmetry, and goes halfway to the bottom again and again, until half of the
  * energy above the bottom is motion. */
 double iso_analogue_start(const iso_analogue *a, double point[ISO_STATE])

@@ -69,11 +69,6 @@ typedef struct iso_analogue {
 iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *problem, double mass, double radius,
                              iso_analogue *analogue);
 
-/* The problem of a point's start: its eps, its energy, and the start on that energy to the last digit, in point[].
- * Errors: ISO_NOT_MAPPED about an effect that acts on the point beyond its potential; as iso_orbit_create. */
-iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
-                                   double point[ISO_STATE]);
-
 /* A start for a problem that has none: off the axes where the energy allows it. Gives a time s of about ten turns. */
 double iso_analogue_start(const iso_analogue *analogue, double point[ISO_STATE]);
 

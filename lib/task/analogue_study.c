@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/number_impl.h"
+#include "base/vec3_impl.h"
 #include "io/scene_print_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/options_impl.h"
@@ -96,6 +97,36 @@ static iso_status prepare(iso_context *ctx, void *options)
     return ISO_OK;
 }
 
+/* The problem of a point's start: its eps, its energy, and the start on that energy to the last digit. Asks an orbit for
+ * the coupling and the level: the scene may not state them. */
+static iso_status problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
+                             double point[ISO_STATE])
+{
+    iso_orbit *orbit;
+    iso_sample sample;
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    iso_effects effects = iso_scene_acting(scene);
+    if (scene->start.model != ISO_POINT)
+        return ISO_FAIL_INPUT(ctx, "", "this scene is a ball already: an analogue is of a 'point'");
+    const iso_effect *more = iso_effects_beyond_level(&effects); /* changes the potential, or there is no twin */
+    if (more)
+        return iso_context_fail(ctx, ISO_NOT_MAPPED, more->name,
+                                "'%s' is more than V = -eps (gamma, J gamma)^(-1/k): take it out", more->name);
+    o.effects = &effects;
+    ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit));
+    iso_status status = iso_orbit_at(orbit, 0, &sample);
+    if (status == ISO_OK) {
+        effects = iso_orbit_effects(orbit);
+        *problem = (iso_analogue_problem){.k = scene->params.k, .eps = iso_orbit_coupling(orbit)};
+        copy(scene->params.J, problem->J, 3);
+        const double c = iso_effects_level(&effects);
+        problem->energy = iso_effects_have_level(&effects) ? iso_coupling(&scene->params, c) : 0;
+        copy(sample.point, point, ISO_STATE);
+    }
+    iso_orbit_free(orbit);
+    return status;
+}
+
 /* The problem of the scene, or, NULL, of the options; and the start and end, in s, of its point. */
 static iso_status state(iso_context *ctx, const iso_scene *scene, const iso_analogue_request *r, iso_analogue *a,
                         double point[ISO_STATE], double *end)
@@ -108,7 +139,7 @@ static iso_status state(iso_context *ctx, const iso_scene *scene, const iso_anal
                                         : "analogue needs a scene, or a problem in options");
     p.neumann = !isnan(p.c[0]);
     if (isnan(p.energy)) p.energy = 0;
-    if (scene) ISO_TRY(iso_analogue_problem_of(ctx, scene, &p, point));
+    if (scene) ISO_TRY(problem_of(ctx, scene, &p, point));
     p.level = r->problem.level;
     ISO_TRY(iso_analogue_find(ctx, &p, r->mass, r->radius, a));
     *end = scene ? scene->end : 2 * iso_analogue_start(a, point); /* about twenty turns */

@@ -87,8 +87,8 @@ struct iso_checking {
     size_t width;                        /* of a row                               */
     size_t rows, passed;                 /* so far; rows of nan that were passed over, counted by who reads them */
     size_t number, before;               /* of the row in hand, and of the last                           */
-    bool
-        begins; /* the next row is the first of its orbit: no flow goes to it, and integrals but the energy may change */
+    bool begins; /* the next row is the first of its orbit: no flow goes to it from the row before, and integrals but
+                  * the energy may have other values */
     double span[ISO_CLOCKS]; /* largest |clock| so far                 */
     iso_units units;         /* for the map                            */
     checked_model model[2];
@@ -111,10 +111,6 @@ static inline double iso_checker_at(const checker *c, const double row[], int co
 iso_effects iso_checker_effects(const checker *c, iso_model_kind kind);
 
 /* --- check_flow.c ----------------------------------------------------------------------------------------------- */
-
-/* The orbit of a row. The record's other clocks are computed, too, where the orbit has them: a point with H not 0 has
- * no free ball and no time t. */
-iso_status iso_checker_open(const checker *c, const checked_model *m, const double row[], iso_orbit **orbit);
 
 /* At the first row. Errors: ISO_NO_MEMORY. */
 iso_status iso_checker_flow_begin(checker *c, checked_model *m, const double first[]);

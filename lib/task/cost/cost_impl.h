@@ -32,9 +32,6 @@ void iso_cost_problem_close(cost_problem *p);
 iso_status iso_cost_orbit_open(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
                                bool with_clock, iso_orbit **orbit);
 
-/* From now on everything that uses p->ctx stops after so many seconds. */
-void iso_cost_allow(cost_problem *p, double seconds);
-
 /* Whether the caller has asked to stop. */
 bool iso_cost_is_stopped(cost_problem *p);
 

@@ -22,7 +22,8 @@ static bool go_on(void *data)
     return !w->stopped && !w->late;
 }
 
-void iso_cost_allow(cost_problem *p, double seconds)
+/* From now on everything that uses p->ctx stops after so many seconds. */
+static void allow(cost_problem *p, double seconds)
 {
     p->monitor.deadline = processor_seconds() + seconds;
     p->monitor.late = false;
@@ -134,7 +135,7 @@ iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method 
     iso_orbit *orbit;
     track->reached = 0;
     track->seconds = 0;
-    iso_cost_allow(p, 1.5 * seconds);
+    allow(p, 1.5 * seconds);
     iso_status status = iso_cost_orbit_open(p, backend, method, tolerance, with_clock, &orbit);
     if (status == ISO_OK) {
         status = walk(p, orbit, seconds, track);
@@ -142,7 +143,7 @@ iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method 
         iso_orbit_free(orbit);
     }
     if (status == ISO_STOPPED) iso_context_fail(p->ctx, ISO_STOPPED, "", "it would take too long");
-    iso_cost_allow(p, INFINITY);
+    allow(p, INFINITY);
     return status;
 }
 
