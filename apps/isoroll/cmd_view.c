@@ -58,16 +58,6 @@ static const char *short_name(const char *path)
 
 /* --- the page --------------------------------------------------------------------------------------------------- */
 
-/* A pipe has no ending, and its beginning cannot be looked at: it is read as a scene. */
-static iso_status blame_pipe(iso_context *ctx, const char *path, iso_status status)
-{
-    char words[2048];
-    if (status != ISO_BAD_INPUT || strcmp(path, "-") == 0 || access(path, F_OK) != 0 || is_regular(path))
-        return status;
-    snprintf(words, sizeof words, "%s", iso_context_message(ctx));
-    return iso_context_fail(ctx, status, "", "%s (a pipe is read as a scene: give a pipe of rows as -)", words);
-}
-
 /* What --live begins with where no scene is given: a ball on a sphere with twice its curvature, chaotic. */
 static const char own_scene[] = "reduced: {k: 0.5, J: [1, 2, 5]}\n"
                                 "initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}\n"
@@ -92,7 +82,13 @@ static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
                                     "--live computes with level, rotor and gravity, and the scene has '%s': take it "
                                     "out, or leave out --live",
                                     iso_effect_list[e]->name);
-    return blame_pipe(ctx, o->from.file, iso_scene_blame(ctx, &scene, iso_text_name(o->from.file), status));
+    const char *path = o->from.file;
+    char text[2048];
+    status = iso_scene_blame(ctx, &scene, iso_text_name(path), status);
+    if (status != ISO_BAD_INPUT || strcmp(path, "-") == 0 || access(path, F_OK) != 0 || is_regular(path))
+        return status;
+    snprintf(text, sizeof text, "%s", iso_context_message(ctx)); /* a pipe's beginning cannot be looked at */
+    return ISO_FAIL_INPUT(ctx, "", "%s (a pipe is read as a scene: give a pipe of rows as -)", text);
 }
 
 static iso_status make(iso_context *ctx, const options *o, view_kind kind, view_page *page)

@@ -54,14 +54,6 @@ static void add_word(const char *before, const char *word)
     add(quoted ? "'" : "");
 }
 
-static void add_option(const option_row *r, const char *text)
-{
-    if (r->aside || r->file == OPTION_WRITES) return;
-    add(" --");
-    add(r->name);
-    if (text) add_word(r->argument[0] == '[' ? "=" : " ", text);
-}
-
 /* --- reading ---------------------------------------------------------------------------------------------------- */
 
 enum { MOST_ROWS = 32, LONG = 256 /* above all letters */ };
@@ -235,7 +227,10 @@ options_result options_read(const command *c, int argc, char **argv, void *optio
             help = true;
         else if (!set_option(c, r, optarg, options))
             return OPTIONS_WRONG;
-        add_option(r, optarg);
+        if (r->aside || r->file == OPTION_WRITES) continue; /* it changes no number of a table */
+        add(" --");
+        add(r->name);
+        if (optarg) add_word(r->argument[0] == '[' ? "=" : " ", optarg);
     }
     for (int i = optind; i < argc; i++) add_word(strncmp(argv[i], "-", 1) == 0 && argv[i][1] ? " ./" : " ", argv[i]);
     const options_result result = set_file(c, argc, argv, help, options);

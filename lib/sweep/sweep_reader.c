@@ -19,18 +19,6 @@ static iso_status damaged(iso_context *ctx, const char *path, const char *why)
 
 /* --- the head --------------------------------------------------------------------------------------------------- */
 
-/* "1 of 3"; in HDF5 of older ones "1 3" */
-static bool read_part(const iso_record *r, iso_sweep_shard *shard)
-{
-    const char *text = iso_record_get(r, "part");
-    *shard = (iso_sweep_shard){0, 1};
-    if (strcmp(iso_record_kind(r), ISO_SWEEP_KIND) == 0) return !text;
-    return text && strcmp(iso_record_kind(r), ISO_SWEEP_PART_KIND) == 0 &&
-           (sscanf(text, "%zu of %zu", &shard->index, &shard->count) == 2 ||
-            sscanf(text, "%zu %zu", &shard->index, &shard->count) == 2) &&
-           shard->index-- > 0 && shard->count > 1;
-}
-
 /* The columns are those of the line "names", in older files "columns": "vary/k chaos/verdict". */
 static bool read_columns(const iso_record *r, iso_sweep_head *h)
 {
@@ -57,11 +45,20 @@ static bool read_head(iso_sweep_reader *r)
     iso_sweep_head *h = &r->head;
     const char *hash = iso_record_get(lines, "hash"), *vectors = iso_record_get(lines, "vectors"),
                *text = iso_record_get(lines, ISO_TABLE_TEXT), *points = iso_record_get(lines, "points"),
-               *chunk = iso_record_get(lines, "chunk");
+               *chunk = iso_record_get(lines, "chunk"), *part = iso_record_get(lines, "part");
     h->version = iso_record_get(lines, "isoroll");
     h->text = text ? text : "";
     h->scene = iso_record_get(lines, "scene");
-    return read_part(lines, &r->shard) && hash && strlen(hash) == 32 &&
+    r->shard = (iso_sweep_shard){0, 1};
+    const bool whole = strcmp(iso_record_kind(lines), ISO_SWEEP_KIND) == 0;
+    const bool named = whole
+                           ? !part
+                           : part && strcmp(iso_record_kind(lines), ISO_SWEEP_PART_KIND) == 0 &&
+                                 (sscanf(part, "%zu of %zu", &r->shard.index, &r->shard.count) == 2 ||
+                                  sscanf(part, "%zu %zu", &r->shard.index, &r->shard.count) == 2) && /* older HDF5 */
+                                 r->shard.index-- > 0 &&
+                                 r->shard.count > 1;
+    return named && hash && strlen(hash) == 32 &&
            sscanf(hash, "%16" SCNx64 "%16" SCNx64, &h->hash[0], &h->hash[1]) == 2 && vectors &&
            snprintf(h->vectors, sizeof h->vectors, "%s", vectors) < ISO_NAME_SIZE && points &&
            sscanf(points, "%zu", &h->count) == 1 && chunk && sscanf(chunk, "%zu", &h->chunk) == 1 &&

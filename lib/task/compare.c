@@ -26,26 +26,21 @@ typedef struct comparer {
 
 /* --- one backend ------------------------------------------------------------------------------------------------ */
 
-/* The scene's method if it can integrate the backend's model; NULL: auto. */
-static const iso_method *method_for(const iso_scene *scene, iso_backend backend)
-{
-    const iso_method *m = iso_method_find(scene->method);
-    const iso_system *const system = backend == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point;
-    return !m || backend == ISO_BACKEND_EXACT || (m->system && m->system != system) ? NULL : m;
-}
-
 static iso_status open_backend(comparer *r, iso_backend backend)
 {
     const int which = r->out->runs;
     iso_backend_run *run = &r->out->run[which];
     iso_orbit_options o = iso_orbit_defaults(&r->scene->start);
+    const iso_method *method = iso_method_find(r->scene->method);
+    const iso_system *system = backend == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point;
+    const bool serves = method && (!method->system || method->system == system);
     const char *names[ISO_TRAJECTORY_COLUMNS];
     iso_column_names(names);
     ISO_TRY(iso_record_create(r->ctx, ISO_COLUMN_EFFECTS, names, &run->trajectory));
     ISO_TRY(iso_method_check(r->ctx, r->scene->method));
     o.effects = &r->effects;
     o.backend = run->backend = backend;
-    o.method = method_for(r->scene, backend);
+    o.method = serves && backend != ISO_BACKEND_EXACT ? method : NULL; /* NULL: auto */
     o.tolerance = r->scene->tolerance;
     o.shown = ISO_SHOW_BOTH;
     for (int clock = 0; clock < ISO_CLOCKS; clock++) o.with_clock[clock] = true;

@@ -129,21 +129,23 @@ static iso_status sort_times(runner *r)
     return ISO_OK;
 }
 
-static iso_status check_times(runner *r)
+/* The times, the columns and the method. */
+static iso_status check(runner *r)
 {
     const iso_run_options *o = &r->options;
-    if (!o->times) {
-        r->farthest = r->scene->end;
-        return iso_scene_check_times(r->ctx, r->scene);
-    }
-    if (o->count == 0) return ISO_FAIL_ARGUMENT(r->ctx, "times", "there are no times");
-    for (size_t i = 0; i < o->count; i++) {
+    r->farthest = o->times ? 0 : r->scene->end;
+    if (!o->times) ISO_TRY(iso_scene_check_times(r->ctx, r->scene));
+    if (o->times && o->count == 0) return ISO_FAIL_ARGUMENT(r->ctx, "times", "there are no times");
+    for (size_t i = 0; o->times && i < o->count; i++) {
         if (!isfinite(o->times[i]))
             return ISO_FAIL_ARGUMENT(r->ctx, "times", "time %zu must be finite, not %s", i + 1,
                                      ISO_SHORT(o->times[i]));
         if (fabs(o->times[i]) > fabs(r->farthest)) r->farthest = o->times[i];
     }
-    return ISO_OK;
+    ISO_TRY(iso_scene_check_columns(r->ctx, r->scene));
+    r->count = iso_scene_column_list(r->scene, r->columns);
+    r->result->asked = o->times ? o->count : iso_scene_rows(r->scene);
+    return iso_method_check(r->ctx, r->scene->method);
 }
 
 /* --- contact ---------------------------------------------------------------------------------------------------- */
@@ -275,15 +277,6 @@ static bool monitor(void *data)
     if (sink->progress && r->orbit && r->farthest != 0)
         sink->progress(sink->data, fmin(fabs(iso_orbit_reached(r->orbit) / r->farthest), 1));
     return iso_monitor_goes_on(&r->monitor);
-}
-
-static iso_status check(runner *r)
-{
-    ISO_TRY(check_times(r));
-    ISO_TRY(iso_scene_check_columns(r->ctx, r->scene));
-    r->count = iso_scene_column_list(r->scene, r->columns);
-    r->result->asked = r->options.times ? r->options.count : iso_scene_rows(r->scene);
-    return iso_method_check(r->ctx, r->scene->method);
 }
 
 static iso_status open_orbit(runner *r)
