@@ -218,18 +218,6 @@ static iso_status check_level(iso_sweep_file *f, const yaml_node_t *key, iso_swe
     return ISO_OK;
 }
 
-/* J2 and J2/J1 both set J2; and J1 behind J2/J1 changes the ratio in the row. */
-static iso_status check_moments(iso_sweep_file *f, const yaml_node_t *key, const iso_sweep_axis *a)
-{
-    for (const iso_sweep_axis *b = f->axis; b < a; b++) {
-        if (a->moments & b->moments)
-            return ISO_FAIL_AT(f, key, "'%s' and '%s' set the same moment", b->name, a->name);
-        if (b->target == ISO_TO_RATIO && a->moments & 1 << b->of)
-            return ISO_FAIL_AT(f, key, "'%s' changes '%s': write it first", a->name, b->name);
-    }
-    return ISO_OK;
-}
-
 /* The names of the columns of an axis. */
 static iso_status name_columns(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a)
 {
@@ -262,7 +250,12 @@ static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
     ISO_TRY(check_chart(f, value, a));
     ISO_TRY(check_level(f, key, a));
     ISO_TRY(name_columns(f, key, a));
-    ISO_TRY(check_moments(f, key, a));
+    for (const iso_sweep_axis *b = f->axis; b < a; b++) { /* J1 behind J2/J1 would change the ratio in the row */
+        if (a->moments & b->moments)
+            return ISO_FAIL_AT(f, key, "'%s' and '%s' set the same moment", b->name, a->name);
+        if (b->target == ISO_TO_RATIO && a->moments & 1 << b->of)
+            return ISO_FAIL_AT(f, key, "'%s' changes '%s': write it first", a->name, b->name);
+    }
     if (a->values != ISO_FROM_DRAWING) return ISO_OK;
     if (f->drawn == ISO_SWEEP_DRAWN) return ISO_FAIL_AT(f, key, "more than %d numbers are drawn", ISO_SWEEP_DRAWN);
     a->drawn = f->drawn++;

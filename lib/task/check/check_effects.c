@@ -16,20 +16,6 @@ typedef struct checked {
     int first, count;
 } checked;
 
-/* The size of the group that errors are measured by as well, which the radius carries into the units of this one:
- * forces times it are torques. */
-static double other_size(const checker *c, const checked *k, const iso_sample *flow)
-{
-    const double radius = c->params->body.radius > 0 ? c->params->body.radius : 1;
-    const iso_effect_column *g;
-    double size = 0;
-    if (!k->group->sized_by) return 0;
-    const int first = iso_effect_group(k->effect, k->group->sized_by, &g);
-    for (int i = 0; i < g->count; i++)
-        size = fmax(size, fabs(iso_sample_column(flow, first + i)) * pow(radius, k->group->length - g->length));
-    return size;
-}
-
 /* What is compared: the number, or the angle of a ratio. */
 static double measured(const checked *k, double number)
 {
@@ -40,7 +26,15 @@ static void check_columns(checker *c, iso_residuals *found, const checked *k, co
                           const double row[])
 {
     bool any = false;
-    double error = 0, size = k->group->ratio ? 1 : other_size(c, k, flow);
+    double error = 0, size = k->group->ratio ? 1 : 0;
+    if (k->group->sized_by &&
+        !k->group->ratio) { /* the radius carries it into these units: forces times it are torques */
+        const double radius = c->params->body.radius > 0 ? c->params->body.radius : 1;
+        const iso_effect_column *g;
+        const int other = iso_effect_group(k->effect, k->group->sized_by, &g);
+        for (int i = 0; i < g->count; i++)
+            size = fmax(size, fabs(iso_sample_column(flow, other + i)) * pow(radius, k->group->length - g->length));
+    }
     char name[sizeof found->residual[0].name];
     for (int i = k->first; i < k->first + k->count; i++) {
         const double expected = measured(k, iso_sample_column(flow, i));
@@ -87,24 +81,19 @@ bool iso_checker_has_effects(const checker *c)
     return false;
 }
 
-/* Whether an effect that acts on nothing can be asked for because its columns are there: no line has to state a
- * number. */
-static bool is_shown(const checker *c, iso_effect_id id)
-{
-    const iso_effect *effect = iso_effect_list[id];
-    bool stated = false, there = false;
-    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) stated = stated || !n->scene_only;
-    for (int i = iso_effect_first_column(id); i < iso_effect_first_column((iso_effect_id)(id + 1)); i++)
-        there = there || c->columns[ISO_COLUMN_EFFECTS + i] >= 0;
-    return there && !stated && (!effect->needs_D || c->params->D > 0);
-}
-
+/* An observer can be asked for because its columns are there, unless a line has to state a number. */
 void iso_checker_choose_observers(checker *c)
 {
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        if (iso_effect_list[e]->observes)
-            c->effects.on[e] =
-                (c->effects.on[e] && iso_columns_have_beginning(c->columns, c->params, e)) || is_shown(c, e);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        bool stated = false, there = false;
+        if (!effect->observes) continue;
+        for (const iso_effect_number *n = effect->numbers; n && n->name; n++) stated = stated || !n->scene_only;
+        for (int i = iso_effect_first_column(e); i < iso_effect_first_column((iso_effect_id)(e + 1)); i++)
+            there = there || c->columns[ISO_COLUMN_EFFECTS + i] >= 0;
+        const bool shown = there && !stated && (!effect->needs_D || c->params->D > 0);
+        c->effects.on[e] = shown || (c->effects.on[e] && iso_columns_have_beginning(c->columns, c->params, e));
+    }
 }
 
 /* --- lines: h, eps, c ------------------------------------------------------------------------------------------- */

@@ -87,8 +87,9 @@ struct iso_checking {
     size_t width;                        /* of a row                               */
     size_t rows, passed;                 /* so far; rows of nan that were passed over, counted by who reads them */
     size_t number, before;               /* of the row in hand, and of the last                           */
-    bool begins; /* the next row is the first of its orbit: no flow goes to it from the row before, and integrals but
-                  * the energy may have other values */
+    /* The next row is the first of its orbit: no flow goes to it from the row before, and the integrals but the energy
+     * may have other values. */
+    bool begins;
     double span[ISO_CLOCKS]; /* largest |clock| so far                 */
     iso_units units;         /* for the map                            */
     checked_model model[2];

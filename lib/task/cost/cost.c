@@ -190,17 +190,6 @@ static void check_cells(measurer *m, double about[])
 
 /* --- times ------------------------------------------------------------------------------------------------------ */
 
-static void time_cell(measurer *m, iso_cost_cell *cell, cost_times *times, double about)
-{
-    const int n = times->count;
-    const iso_status status = iso_cost_time(&m->p, cell, m->p.end, n > 0 ? times->stepping[n - 1] : about,
-                                            &times->setup[n], &times->stepping[n], &cell->statistics);
-    if (status == ISO_OK)
-        times->count++;
-    else if (!m->p.monitor.stopped)
-        fail(cell, status, "%s", iso_context_message(m->p.ctx));
-}
-
 /* Times all cells once in each round, until all times are settled or the time is over. */
 static void time_cells(measurer *m, const double about[])
 {
@@ -211,7 +200,12 @@ static void time_cells(measurer *m, const double about[])
             iso_cost_cell *cell = &m->out->cell[i];
             if (iso_cost_is_stopped(&m->p) || (round >= LEAST_REPEATS && elapsed(m) > m->seconds)) return;
             if (cell->status != ISO_OK || iso_cost_times_settled(&m->times[i])) continue;
-            time_cell(m, cell, &m->times[i], about[i]);
+            cost_times *times = &m->times[i];
+            const int n = times->count;
+            const iso_status status = iso_cost_time(&m->p, cell, m->p.end, n > 0 ? times->stepping[n - 1] : about[i],
+                                                    &times->setup[n], &times->stepping[n], &cell->statistics);
+            times->count += status == ISO_OK;
+            if (status != ISO_OK && !m->p.monitor.stopped) fail(cell, status, "%s", iso_context_message(m->p.ctx));
             open++;
             report_progress(m, "times");
         }

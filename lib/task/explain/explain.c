@@ -172,18 +172,6 @@ static void explain_integral(FILE *to, const char *whose, const iso_integral *i,
     if (!i->claimed && (!i->holds || i->holds(f)) == wanted) fprintf(to, "  %-5s %-10s %s\n", whose, i->name, i->doc);
 }
 
-/* Those that the scene itself claims. */
-static void explain_claims(FILE *to, const iso_problem *f)
-{
-    const iso_integral *list[ISO_MAX_INTEGRALS];
-    const int count = iso_integrals_holding(&iso_system_ball, f, list, ISO_MAX_INTEGRALS);
-    int claims = 0;
-    for (int i = 0; i < count; i++)
-        if (list[i]->claimed)
-            fprintf(to, "%s %s", claims++ ? "" : "integrals that the scene claims\n ", list[i]->name);
-    if (claims > 0) fprintf(to, "   watched by check, compare, plot and view; nobody has proved them\n");
-}
-
 /* The integrals of both models. Without a twin: of the integrated model alone. */
 static void explain_integrals(FILE *to, const iso_orbit *orbit)
 {
@@ -200,7 +188,13 @@ static void explain_integrals(FILE *to, const iso_orbit *orbit)
                      i && i->name; i++)
                     if (f->effects.on[e]) explain_integral(to, iso_systems[s]->name, i, f, wanted);
     }
-    explain_claims(to, f);
+    const iso_integral *list[ISO_MAX_INTEGRALS];
+    const int count = iso_integrals_holding(&iso_system_ball, f, list, ISO_MAX_INTEGRALS);
+    int claims = 0;
+    for (int i = 0; i < count; i++)
+        if (list[i]->claimed)
+            fprintf(to, "%s %s", claims++ ? "" : "integrals that the scene claims\n ", list[i]->name);
+    if (claims > 0) fprintf(to, "   watched by check, compare, plot and view; nobody has proved them\n");
 }
 
 /* Seconds for one right-hand side: the least of several rounds. */
