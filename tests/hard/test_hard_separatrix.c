@@ -1,16 +1,46 @@
 /* Planes, axes and separatrices: what is in a principal plane stays there, what leaves an unstable rotation does so
  * at the rate of theory, and orbits next to the separatrix are found on the right side of it. */
-#define _GNU_SOURCE /* functions of _Float128 */
 #include <gsl/gsl_sf_ellint.h>
 
 #include "exact_orbits.h"
 #include "hard_loss.h"
-#include "instrument/periodic/periodic_impl.h"
+
+typedef long double real;
 
 static iso_context *ctx;
 static const double J_three[3] = {1.4, 2.1, 3.0}, W = 1.3;
 
-/* --- the rotation about an axis, linearised: Hill's equation, which study/theorem and periodic test --------------- */
+/* --- theory: the rotation about an axis, linearised ------------------------------------------------------------- */
+
+/* gamma = (cos phi, sin phi, y) with the axis last, phi' = |M|, M^2 = 2 eps q^(-1/k): the component of
+ * gamma'' = -M^2 gamma - dV + (gamma,dV) gamma across the plane is, with q = J1 cos^2 + J2 sin^2, J the axis' moment,
+ *
+ *     d^2y/dphi^2 - (q_phi/(2 k q)) dy/dphi + [1 + (J/q - 1)/k] y = 0,
+ *
+ * Hill's equation of period pi. Its solutions with y(0) = 1, y' = 0 and the other way round, after half a turn, are
+ * the columns of m; det m = 1, and q is even: m[0][0] = m[1][1] = cosh(exponent), up to a sign. */
+static void half_turn(double k, const double J[3], real m[2][2])
+{
+    enum { STEPS = 6000 };
+    static const real part[4] = {0, 0.5L, 0.5L, 1}, weight[4] = {1 / 6.0L, 1 / 3.0L, 1 / 3.0L, 1 / 6.0L};
+    const real h = acosl(-1) / STEPS;
+    for (int column = 0; column < 2; column++) {
+        real y[2] = {column == 0, column == 1};
+        for (int i = 0; i < STEPS; i++) {
+            real sum[2] = {0}, f[2] = {0};
+            for (int stage = 0; stage < 4; stage++) {
+                const real phi = (i + part[stage]) * h, c = cosl(phi), s = sinl(phi);
+                const real at = y[0] + part[stage] * h * f[0], rate = y[1] + part[stage] * h * f[1];
+                const real q = J[0] * c * c + J[1] * s * s, slope = 2 * (J[1] - J[0]) * s * c;
+                f[0] = rate;
+                f[1] = slope / (2 * k * q) * rate - (1 + (J[2] / q - 1) / k) * at;
+                for (int j = 0; j < 2; j++) sum[j] += weight[stage] * f[j];
+            }
+            for (int j = 0; j < 2; j++) y[j] += h * sum[j];
+        }
+        for (int j = 0; j < 2; j++) m[j][column] = y[j];
+    }
+}
 
 /* A rotation about an axis of J_three; 0: stable. */
 typedef struct rotation {
@@ -25,11 +55,11 @@ typedef struct rotation {
 static rotation find_rotation(double k, int axis)
 {
     rotation r = {.k = k, .p = laws_params(k, J_three), .axis = axis, .in = {(axis + 1) % 3, (axis + 2) % 3}};
-    iso_wide m[2][2];
-    iso_hill_matrix_wide(k, J_three, 0, axis, m);
-    const double c = (double)m[0][0];
-    r.exponent = fabs(c) > 1 ? acosh(fabs(c)) : 0;
-    r.direction = fabs(c) > 1 ? copysign(sqrt(c * c - 1), c) / (double)m[0][1] : 0;
+    real m[2][2];
+    half_turn(k, (const double[]){J_three[r.in[0]], J_three[r.in[1]], J_three[axis]}, m);
+    const real c = fabsl(m[0][0]);
+    r.exponent = c > 1 ? (double)acoshl(c) : 0;
+    r.direction = c > 1 ? (double)(copysignl(sqrtl(c * c - 1), m[0][0]) / m[0][1]) : 0;
     r.turn = M_PI / (fabs(k) * W);
     return r;
 }
@@ -87,8 +117,9 @@ static void check_exponent(void)
     hard_case("Lyapunov exponent", "Hill's equation against Jacobi's zeta function, k = -1",
               "the rate at which orbits leave is that of a periodic equation, no mean of the Jacobian's eigenvalues");
     for (int i = 0; i < 5; i++) {
-        const double half_turn = iso_hill_trace(-1, J[i], 0, 1, NULL);
-        worst = hard_worse(fabs(acosh(fabs(half_turn) / 2) / zeta_exponent(J[i]) - 1), worst);
+        real m[2][2];
+        half_turn(-1, (const double[]){J[i][2], J[i][0], J[i][1]}, m);
+        worst = hard_worse(fabs((double)acoshl(fabsl(m[0][0])) / zeta_exponent(J[i]) - 1), worst);
     }
     hard_hold(NULL, worst, 1e-11);
     const rotation r = rotation_about(-1, 1); /* frozen: w' = J^-1 (J w x w), Euler's top */
