@@ -175,7 +175,7 @@ static int list_ways(way ways[MOST], bool only_lanes)
     const int one = -1, all = 0;
     int count = 0;
     for (int i = 0; rivals[i].name && !only_lanes; i++)
-        for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT && !rivals[i].slow; b++) {
+        for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
             snprintf(names[count], sizeof *names, "%s, %s", rivals[i].name, b == ISO_BACKEND_BALL ? "ball" : "point");
             ways[count] = (way){.name = names[count], .backend = b, .threads = one, .rival = &rivals[i]};
             count++;
