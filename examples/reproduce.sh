@@ -41,7 +41,7 @@ cost|all|1|figure|lib/doc/methods.md|02|pictures.sh BUILD cost
 methods|all|-|beside|lib/doc/methods.md|3[.] |bench_methods taylor rk8pd rkck bsimp msadams adams bdf
 exact|all|-|beside|lib/doc/methods.md|5[.] |bench_exact
 effects|all|-|beside|lib/doc/methods.md|7[.] |bench_effects
-batch|all|-|beside|lib/doc/performance.md|Many orbits at once|bench_batch -1 2 yardstick
+batch|all|-|beside|lib/doc/performance.md|Many orbits at once|bench_batch -1 2 lanes
 crossings|all|-|beside|lib/doc/performance.md|Against other programs|bench_crossings 0.5
 anytime|all|-|beside|lib/doc/performance.md|Questions about any time|bench_anytime
 backends|all|-|beside|lib/doc/performance.md|What the backends cost|bench_backends

@@ -2,9 +2,7 @@
 #include <string.h>
 
 #include "command.h"
-#include "parameters.h"
 #include "task/task_impl.h"
-#include "terminal.h"
 
 typedef struct options {
     iso_analogue_request study;

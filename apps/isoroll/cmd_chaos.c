@@ -21,7 +21,7 @@ static int draw_indicators(const shell *s)
         table[count++] = r;
     }
     if (status == ISO_OK && count == 0)
-        status = iso_context_fail(s->ctx, ISO_BAD_INPUT, "", "no picture: there is no row of indicators");
+        status = ISO_FAIL_INPUT(s->ctx, "", "no picture: there is no row of indicators");
     if (status == ISO_OK) status = plot_tables(s->ctx, &s->common->plot, table, NULL);
     return finish(s->ctx, status);
 }
@@ -31,16 +31,15 @@ static int draw(const shell *s)
     const iso_chaos *c = s->result.found;
     if (c->share.count > 0) return shell_draw(s, s->result.table[0]);
     if (c->plane < 0) return draw_indicators(s);
-    return finish(s->ctx, iso_context_fail(s->ctx, ISO_BAD_INPUT, "",
-                                           "no picture: a rotation in a principal plane is periodic, and was not "
-                                           "followed; --starts N draws the section of its energy"));
+    return finish(s->ctx, ISO_FAIL_INPUT(s->ctx, "",
+                                         "no picture: a rotation in a principal plane is periodic, and was not "
+                                         "followed; --starts N draws the section of its energy"));
 }
 
 static iso_status check(const shell *s)
 {
     if (!s->common->table || strcmp(s->common->table, "-") != 0 || !s->common->json) return ISO_OK;
-    return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "csv",
-                            "chaos: standard output has room for one of --csv - and --json");
+    return ISO_FAIL_ARGUMENT(s->ctx, "csv", "chaos: standard output has room for one of --csv - and --json");
 }
 
 static void complain_interrupted(const shell *s)

@@ -1,28 +1,15 @@
 /* isoroll check - tests whether a trajectory solves its model. */
 #include "base/number_impl.h"
+#include "command.h"
 #include "json.h"
-#include "parameters.h"
 #include "stream.h"
 #include "task/check/check_impl.h"
-#include "terminal.h"
 
 typedef struct options {
     iso_check_request study;
     const char *file, *scene, *columns; /* NULL: not given */
     bool json;
 } options;
-
-/* Prints what was found; its exit status. */
-static int report(const options *o, const iso_study_result *r)
-{
-    const iso_check_found *f = r->found;
-    if (!o->json)
-        iso_fold(stdout, r->text, terminal_width(stdout));
-    else if (!json_print(json_of(r->fields, f)))
-        return EXIT_NUMERICAL;
-    if (!r->failed) return EXIT_DONE;
-    return complain("%s: a residual is above %s", o->file, ISO_SHORT(f->bound)), EXIT_SOME_FAILED;
-}
 
 static int run(iso_context *ctx, const void *options_given)
 {
@@ -43,7 +30,13 @@ static int run(iso_context *ctx, const void *options_given)
         progress_end();
     }
     iso_table_reader_close(in);
-    const int result = status == ISO_OK ? report(o, &r) : finish(ctx, name_the_file(ctx, o->file, status));
+    int result = finish(ctx, name_the_file(ctx, o->file, status));
+    if (status == ISO_OK && o->json && !json_print(json_of(r.fields, r.found))) result = EXIT_NUMERICAL;
+    if (status == ISO_OK && !o->json) iso_fold(stdout, r.text, terminal_width(stdout));
+    if (result == EXIT_DONE && r.failed) {
+        complain("%s: a residual is above %s", o->file, ISO_SHORT(o->study.bound));
+        result = EXIT_SOME_FAILED;
+    }
     iso_study_result_free(&r);
     return result;
 }

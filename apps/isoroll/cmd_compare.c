@@ -18,7 +18,7 @@ static json_t *json(const shell *s)
 
 static int draw(const shell *s)
 {
-    char result[200], unused[ISO_COMPARISON_WORDS];
+    char result[200], unused[ISO_COMPARISON_SIZE];
     double worst;
     const iso_comparison *c = s->result.found;
     const size_t rows = iso_record_rows(c->difference);
@@ -26,7 +26,7 @@ static int draw(const shell *s)
     if (rows == 0) return EXIT_DONE;
     const double end = iso_record_const_row(c->run[ISO_BALL].trajectory, rows - 1)[ISO_CLOCK_T];
     iso_status status = iso_picture_stretch(s->ctx, &s->scene, end, &states, &curve);
-    const bool same = iso_comparison_words(&s->scene, c, &worst, unused);
+    const bool same = iso_comparison_text(&s->scene, c, &worst, unused);
     snprintf(result, sizeof result, "%s %s %.1e",
              c->runs == ISO_BACKENDS
                  ? "three computations, by the ball's equations, the point's, and the closed solution,"

@@ -1,9 +1,8 @@
 /* cmd_convert.c - `isoroll convert`: a filter that reads a trajectory of one model and writes that of the other. */
 #include <math.h>
 
-#include "file_kind.h"
+#include "command.h"
 #include "instrument/certify/certify_impl.h"
-#include "parameters.h"
 #include "stream.h"
 #include "task/convert/convert_impl.h"
 

@@ -12,8 +12,8 @@ static iso_status check(const shell *s)
     const bool table = s->common->table && strcmp(s->common->table, "-") == 0,
                want = !isnan(((const options *)s->options)->study.want);
     if (table && (s->common->json || want))
-        return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "output",
-                                "cost: standard output has room for one: choose -o -, --json or --want");
+        return ISO_FAIL_ARGUMENT(s->ctx, "output",
+                                 "cost: standard output has room for one: choose -o -, --json or --want");
     return ISO_OK;
 }
 

@@ -4,24 +4,20 @@
 
 #include "command.h"
 #include "sweep/sweep_impl.h"
-#include "terminal.h"
 
 OPTIONS_OF_SCENE(iso_scene_request);
-
-static bool changes(const iso_scene_changes *c)
-{
-    return c->method || (int)c->backend >= 0 || (int)c->as >= 0 || !isnan(c->tolerance) || !isnan(c->end) ||
-           !isnan(c->step);
-}
 
 static int run_sweep(iso_context *ctx, const options *o)
 {
     iso_sweep_file *file;
     char *text;
-    iso_status status = changes(&o->study.change) ? iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                                                     "explain: options are for scenes, not for a "
-                                                                     "sweep, whose scene has its own")
-                                                  : iso_sweep_read(ctx, o->shell.file, &file);
+    const iso_scene_changes *c = &o->study.change;
+    const bool changes = c->method || (int)c->backend >= 0 || (int)c->as >= 0 || !isnan(c->tolerance) ||
+                         !isnan(c->end) || !isnan(c->step);
+    iso_status status =
+        changes
+            ? ISO_FAIL_ARGUMENT(ctx, "", "explain: options are for scenes, not for a sweep, whose scene has its own")
+            : iso_sweep_read(ctx, o->shell.file, &file);
     if (status != ISO_OK) return finish(ctx, status);
     progress_begin();
     status = iso_sweep_explain(ctx, file, &text);

@@ -14,7 +14,7 @@ static iso_status draw_found(const shell *s, iso_frequencies *f)
     iso_frequencies_options how = o->study;
     iso_record *table = NULL;
     iso_momentum m;
-    how.progress = progress_told;
+    how.progress = progress_sink;
     const bool mapped = f->integral && iso_momentum_at(&s->scene.params, f->H, f->h, f->integral->name, f->F, &m);
     iso_status status = mapped || f->estimated ? ISO_OK : iso_frequencies_estimate(s->ctx, &s->scene, &how, f);
     progress_end();

@@ -4,7 +4,6 @@
 
 #include "command.h"
 #include "task/list/list_impl.h"
-#include "terminal.h"
 
 typedef struct options {
     const char *topic;

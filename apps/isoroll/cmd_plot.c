@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "command.h"
 #include "embedded.h"
 #include "io/table.h"
-#include "parameters.h"
 #include "plot/draw.h"
 #include "sweep/sweep_store_impl.h"
 
@@ -129,7 +129,7 @@ static int run(iso_context *ctx, const void *options_given)
         return complain("plot: --%s is for trajectories", given), EXIT_USAGE;
     if (!sweep && !has_picture(kind)) return complain("plot: there is no picture of a table '%s'", kind), EXIT_USAGE;
     if (status == ISO_OK && o->value && !sweep)
-        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");
+        status = ISO_FAIL_ARGUMENT(ctx, "value", "plot: --value is for results of sweeps");
     if (status == ISO_OK && !o->from.columns && !trajectory) return finish(ctx, draw_table(ctx, o, sweep));
     if (status == ISO_OK)
         status = names_two(o->from.columns, name) ? draw_two(ctx, o, kind, name) : draw_file(ctx, o);

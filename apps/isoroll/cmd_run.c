@@ -48,7 +48,7 @@ static int certify(iso_context *ctx, const options *o, const iso_scene *scene, c
 {
     enum { DIGITS = 30 };
     stream to = {.ctx = ctx, .output = o->output};
-    const iso_certify_sink sink = {stream_line, progress_told, &to};
+    const iso_certify_sink sink = {stream_line, progress_sink, &to};
     const iso_certify_options how = {o->digits ? o->digits : DIGITS, o->work_digits};
     iso_certify_result r;
     iso_context_set_monitor(ctx, not_interrupted, NULL);

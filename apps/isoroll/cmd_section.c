@@ -64,7 +64,7 @@ static void classify_orbits(iso_context *ctx, const iso_scene *scene, const iso_
     c.tolerance = how->tolerance;
     c.threads = how->threads;
     if (r->orbits > MOST_ORBITS || c.at_count == 0) return;
-    c.progress = progress_told;
+    c.progress = progress_sink;
     progress_doing("verdicts");
     const iso_status status = iso_chaos_run(ctx, scene, &c, &chaos);
     for (size_t i = 0; status == ISO_OK && i < chaos->starts; i++)
@@ -125,8 +125,7 @@ static int section(iso_context *ctx, const options *o)
     iso_status status = iso_plot_check_page(ctx, &o->shell.plot);
     if (status == ISO_OK && o->shell.plot.path && how->column >= 0 &&
         !iso_section_is_of_axis(how->column, how->value, &axis))
-        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                  "--plot draws sections n_A = 0: an event has no coordinates l, x");
+        status = ISO_FAIL_ARGUMENT(ctx, "", "--plot draws sections n_A = 0: an event has no coordinates l, x");
     if (status == ISO_OK) status = iso_scene_load(ctx, o->shell.file, &scene);
     return status == ISO_OK ? run_scene(ctx, o, &scene) : finish(ctx, status);
 }
@@ -137,7 +136,7 @@ static iso_status check_area(const shell *s)
 {
     const shell_options *o = &((const options *)s->options)->shell;
     if (!o->plot.path) return ISO_OK;
-    return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "", "section: --area draws no picture: leave out --plot");
+    return ISO_FAIL_ARGUMENT(s->ctx, "", "section: --area draws no picture: leave out --plot");
 }
 
 static int run(iso_context *ctx, const void *options_given)

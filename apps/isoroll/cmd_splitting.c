@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "command.h"
-#include "instrument/separatrix/separatrix_study_impl.h"
+#include "instrument/separatrix/separatrix.h"
 #include "picture/picture_impl.h"
 #include "plot/draw.h"
 

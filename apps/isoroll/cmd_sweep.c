@@ -21,19 +21,11 @@ typedef struct options {
 
 /* --- the shard -------------------------------------------------------------------------------------------------- */
 
-static bool read_whole(const char *text, size_t length, double *x)
-{
-    char copy[24] = "";
-    if (length == 0 || length >= sizeof copy) return false;
-    memcpy(copy, text, length);
-    return iso_set_whole(x, copy);
-}
-
 static bool from_environment(const char *name, double usual, double *x)
 {
     const char *text = getenv(name);
     *x = usual;
-    return text ? read_whole(text, strlen(text), x) : !isnan(usual);
+    return text ? iso_set_whole(x, text) : !isnan(usual);
 }
 
 /* The number of a task of a Slurm array begins at any number, and can go in steps. Some tasks that are submitted
@@ -69,14 +61,13 @@ static iso_status read_shard(iso_context *ctx, const char *text, iso_sweep_shard
     *shard = (iso_sweep_shard){0, 1};
     if (!text) return ISO_OK;
     if (strcmp(text, "slurm") == 0) return shard_of_slurm(ctx, shard);
+    char first[24];
     const char *slash = strchr(text, '/'), *most = slash ? slash + 1 : "";
     const bool task = strncmp(text, "slurm/", 6) == 0;
-    if (read_whole(most, strlen(most), &n) &&
-        (task ? from_environment("SLURM_ARRAY_TASK_ID", NAN, &i) : read_whole(text, (size_t)(slash - text), &i)) &&
-        i >= 1 && i <= n) {
-        *shard = (iso_sweep_shard){(size_t)i - 1, (size_t)n};
-        return ISO_OK;
-    }
+    snprintf(first, sizeof first, "%.*s", (int)strcspn(text, "/"), text);
+    if (iso_set_whole(&n, most) &&
+        (task ? from_environment("SLURM_ARRAY_TASK_ID", NAN, &i) : iso_set_whole(&i, first)) && i >= 1 && i <= n)
+        return *shard = (iso_sweep_shard){(size_t)i - 1, (size_t)n}, ISO_OK;
     if (task)
         return ISO_FAIL_ARGUMENT(ctx, "shard", "--shard slurm/%s: SLURM_ARRAY_TASK_ID must be a number from 1 to %s",
                                  most, most);
@@ -119,7 +110,7 @@ static int compute(iso_context *ctx, const options *o, const sweep_team *team, c
     char of[32];
     const iso_sweep_source source = iso_sweep_store_source(store);
     store->interrupted = interrupted;
-    store->progress = progress_told;
+    store->progress = progress_sink;
     stop_gently();
     progress_begin();
     progress_show((double)store->done / (double)store->wanted);
@@ -202,23 +193,18 @@ static int merge(iso_context *ctx, const options *o)
     return status == ISO_OK ? warn_failures(&failures, "") : finish(ctx, status);
 }
 
-/* Not a pipe: only one program can read that. A file that is not there is one: who opens it tells why. */
-static bool is_file(const char *path)
-{
-    struct stat s;
-    return strcmp(path, "-") != 0 && (stat(path, &s) != 0 || S_ISREG(s.st_mode));
-}
-
 int sweep_with(iso_context *ctx, const void *options_given, const sweep_team *team)
 {
     const options *o = options_given;
     iso_sweep_file *file;
+    struct stat s;
     if (!o->merge && o->parts.count > 1)
         return complain("sweep: one argument too many: %s", o->parts.path[1]), EXIT_USAGE;
     if (!o->merge && !file_fits(&command_sweep, o->file)) return EXIT_BAD_INPUT;
     const bool computes = !o->merge && isnan(o->point); /* else one member is enough */
     const bool many = team && team->members > 1;
-    if (computes && many && !is_file(o->file))
+    const bool pipe = strcmp(o->file, "-") == 0 || (stat(o->file, &s) == 0 && !S_ISREG(s.st_mode));
+    if (computes && many && pipe) /* only one program can read it; who opens a file that is not there tells why */
         return complain("sweep: a pipe reaches one rank alone: give a file"), EXIT_USAGE;
     if (computes && many && strcmp(o->output, "-") == 0)
         return complain("sweep: mpirun does not tell whether its output arrives: give -o FILE"), EXIT_USAGE;

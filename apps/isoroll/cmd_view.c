@@ -58,16 +58,6 @@ static const char *short_name(const char *path)
 
 /* --- the page --------------------------------------------------------------------------------------------------- */
 
-/* A pipe has no ending, and its beginning cannot be looked at: it is read as a scene. */
-static iso_status blame_pipe(iso_context *ctx, const char *path, iso_status status)
-{
-    char words[2048];
-    if (status != ISO_BAD_INPUT || strcmp(path, "-") == 0 || access(path, F_OK) != 0 || is_regular(path))
-        return status;
-    snprintf(words, sizeof words, "%s", iso_context_message(ctx));
-    return iso_context_fail(ctx, status, "", "%s (a pipe is read as a scene: give a pipe of rows as -)", words);
-}
-
 /* What --live begins with where no scene is given: a ball on a sphere with twice its curvature, chaotic. */
 static const char own_scene[] = "reduced: {k: 0.5, J: [1, 2, 5]}\n"
                                 "initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}\n"
@@ -78,23 +68,6 @@ static bool has_own_scene(const options *o)
     return o->live && strcmp(o->from.file, "-") == 0;
 }
 
-/* The laboratory has these effects alone (view/forces.js). */
-static bool is_in_laboratory(int effect)
-{
-    return effect == ISO_ATTITUDE || effect == ISO_LEVEL || effect == ISO_ROTOR || effect == ISO_GRAVITY;
-}
-
-static iso_status check_live(iso_context *ctx, const view_page *page)
-{
-    for (int i = 0; page->live && i < ISO_EFFECTS; i++)
-        if (page->effects.on[i] && !is_in_laboratory(i))
-            return ISO_FAIL_INPUT(ctx, iso_effect_list[i]->name,
-                                  "--live computes with level, rotor and gravity, and the scene has '%s': take it "
-                                  "out, or leave out --live",
-                                  iso_effect_list[i]->name);
-    return ISO_OK;
-}
-
 static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
 {
     iso_scene scene = {.places = 0};
@@ -103,8 +76,19 @@ static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
                             : iso_scene_load(ctx, o->from.file, &scene);
     if (status == ISO_OK) status = iso_scene_check_times(ctx, &scene);
     if (status == ISO_OK) status = view_of_scene(ctx, &scene, page);
-    if (status == ISO_OK) status = check_live(ctx, page);
-    return blame_pipe(ctx, o->from.file, iso_scene_blame(ctx, &scene, iso_text_name(o->from.file), status));
+    for (int e = 0; status == ISO_OK && page->live && e < ISO_EFFECTS; e++) /* the laboratory has a few: forces.js */
+        if (page->effects.on[e] && e != ISO_ATTITUDE && e != ISO_LEVEL && e != ISO_ROTOR && e != ISO_GRAVITY)
+            status = ISO_FAIL_INPUT(ctx, iso_effect_list[e]->name,
+                                    "--live computes with level, rotor and gravity, and the scene has '%s': take it "
+                                    "out, or leave out --live",
+                                    iso_effect_list[e]->name);
+    const char *path = o->from.file;
+    char text[2048];
+    status = iso_scene_blame(ctx, &scene, iso_text_name(path), status);
+    if (status != ISO_BAD_INPUT || strcmp(path, "-") == 0 || access(path, F_OK) != 0 || is_regular(path))
+        return status;
+    snprintf(text, sizeof text, "%s", iso_context_message(ctx)); /* a pipe's beginning cannot be looked at */
+    return ISO_FAIL_INPUT(ctx, "", "%s (a pipe is read as a scene: give a pipe of rows as -)", text);
 }
 
 static iso_status make(iso_context *ctx, const options *o, view_kind kind, view_page *page)

@@ -77,10 +77,6 @@ extern const char *const about_exits;
 void help_command(const command *c, FILE *to);
 void help_program(FILE *to);
 
-/* The man pages isoroll(1) and isoroll-NAME(1), in the format man(7). */
-void manual_program(FILE *to);
-void manual_command(const command *c, FILE *to);
-
 /* Scripts that complete the command line. They ask `isoroll --complete WORD...`: */
 extern const char complete_bash[], complete_zsh[];
 

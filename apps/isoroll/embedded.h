@@ -4,6 +4,7 @@
 #define ISOROLL_EMBEDDED_H
 
 #include <stddef.h>
+#include <string.h>
 
 typedef struct embedded_file {
     const char *name; /* "page", "style", "three", "clocks", ...: without its ending; NULL after the last */
@@ -14,6 +15,10 @@ typedef struct embedded_file {
 extern const embedded_file view_files[], picture_files[];
 
 /* The file called `name`, or the row without a name, which is empty. */
-const embedded_file *embedded_find(const embedded_file *files, const char *name);
+static inline const embedded_file *embedded_find(const embedded_file *files, const char *name)
+{
+    while (files->name && strcmp(files->name, name) != 0) files++;
+    return files;
+}
 
 #endif

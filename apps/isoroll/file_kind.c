@@ -1,4 +1,5 @@
-/* file_kind.c - tells kinds of files apart by their beginnings, and which command takes them (see file_kind.h). */
+/* file_kind.c - tells kinds of files apart by their beginnings, which command takes them, and what options add
+ * to them (see file_kind.h). */
 #include "file_kind.h"
 
 #include <fcntl.h>
@@ -8,7 +9,6 @@
 
 #include "command.h"
 #include "instrument/certify/certify_impl.h"
-#include "io/table_impl.h"
 #include "sweep/sweep_impl.h"
 
 /* --- the kind --------------------------------------------------------------------------------------------------- */
@@ -40,15 +40,6 @@ static const char *beginning_of(const char *path)
     return text;
 }
 
-/* The kind of one of isoroll's own tables; else "". */
-static void table_name(const char *path, const char *text, char name[ISO_KIND_SIZE])
-{
-    *name = '\0';
-    if (sscanf(text, "# isoroll %31[^0-9\r\n]", name) == 1)
-        for (size_t end = strlen(name); end > 0 && name[end - 1] == ' '; end--) name[end - 1] = '\0';
-    if (strncmp(text, "\211HDF\r\n", 6) == 0) iso_table_kind(path, name);
-}
-
 /* A sweep, or a scene: each line is a key of its, a comment, or indented. */
 static unsigned kind_of_yaml(const char *text)
 {
@@ -70,32 +61,30 @@ static unsigned kind_of_yaml(const char *text)
 unsigned file_kind(const char *path, char table[ISO_KIND_SIZE])
 {
     const char *text = beginning_of(path);
-    table_name(path, text, table);
+    const bool hdf5 = strncmp(text, "\211HDF\r\n", 6) == 0;
+    *table = '\0';
+    if (sscanf(text, "# isoroll %31[^0-9\r\n]", table) == 1)
+        for (size_t end = strlen(table); end > 0 && table[end - 1] == ' '; end--) table[end - 1] = '\0';
+    if (hdf5) iso_table_kind(path, table);
     for (size_t i = 0; *table && i < sizeof kinds / sizeof *kinds; i++)
         if (kinds[i].table && strcmp(table, kinds[i].table) == 0) return kinds[i].kind;
     if (*table) return FILE_TABLE;
-    return strncmp(text, "\211HDF\r\n", 6) == 0 ? FILE_HDF5 : kind_of_yaml(text);
+    return hdf5 ? FILE_HDF5 : kind_of_yaml(text);
 }
 
 /* --- the refusal ------------------------------------------------------------------------------------------------ */
 
-/* The commands that take a kind, with commas between. */
-static void list_commands(unsigned kind, char list[200])
-{
-    *list = '\0';
-    for (int i = 0; commands[i]; i++) {
-        const size_t used = strlen(list);
-        if (commands[i]->takes & kind) snprintf(list + used, 200 - used, "%s%s", used ? ", " : "", commands[i]->name);
-    }
-}
-
 bool file_fits(const command *c, const char *path)
 {
-    char list[200], table[ISO_KIND_SIZE];
+    char list[200] = "", table[ISO_KIND_SIZE];
     const unsigned kind = c->takes ? file_kind(path, table) : 0;
     size_t i = 0;
     if (kind == 0 || c->takes & kind) return true;
-    list_commands(kind, list);
+    for (int n = 0; commands[n]; n++) { /* the commands that take it */
+        const size_t used = strlen(list);
+        if (commands[n]->takes & kind)
+            snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", commands[n]->name);
+    }
     if (kind == FILE_SCENE && c->takes & FILE_SWEEP)
         complain("%s: '%s' is a scene: a sweep has the keys scene, vary and measure; scenes are for: %s", c->name,
                  path, list);
@@ -111,4 +100,26 @@ bool file_fits(const command *c, const char *path)
         complain("%s: '%s' is %s, which is for: %s", c->name, path, kinds[i].words, list);
     }
     return false;
+}
+
+/* --- options ---------------------------------------------------------------------------------------------------- */
+
+const char *file_option_given(const file_options *o)
+{
+    const iso_file_parameters *a = &o->added;
+    if (!isnan(a->k)) return "k";
+    if (!isnan(a->J[0])) return "J";
+    if (!isnan(a->eps)) return "eps";
+    if (!isnan(a->h)) return "h";
+    if (a->row_tolerance != ISO_ROW_TOLERANCE) return "row-tolerance";
+    if (o->scene) return "scene";
+    return o->columns ? "columns" : NULL;
+}
+
+iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_record *record, iso_params *params)
+{
+    iso_scene scene;
+    const iso_status status = o->scene ? iso_scene_load(ctx, o->scene, &scene) : ISO_OK;
+    return status == ISO_OK ? iso_file_parameters_apply(ctx, &o->added, o->scene ? &scene : NULL, record, params)
+                            : status;
 }

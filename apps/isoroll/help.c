@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "command.h"
-#include "terminal.h"
 
 static int width_of(FILE *to)
 {
@@ -23,16 +22,6 @@ static void print_lines(const char *text, int column, FILE *to)
     }
 }
 
-static void print_row(const option_row *r, FILE *to)
-{
-    const int length = (int)strlen(r->name), name = length > 10 ? length : 10; /* then fewer blanks */
-    char line[1024], letter[64] = "";
-    const char *argument = r->argument ? r->argument : "";
-    if (r->letter) snprintf(letter, sizeof letter, " (-%c%s%s)", r->letter, r->argument ? " " : "", argument);
-    snprintf(line, sizeof line, "  --%-*s %-*s  %s%s", name, r->name, 18 - name, argument, r->doc, letter);
-    iso_fold_line(to, line, strlen(line), width_of(to));
-}
-
 void help_command(const command *c, FILE *to)
 {
     char usage[128];
@@ -40,7 +29,15 @@ void help_command(const command *c, FILE *to)
     print_lines(usage, 0, to);
     print_lines(command_doc(c), 0, to);
     fputc('\n', to);
-    for (int i = 0; options_row(c, i); i++) print_row(options_row(c, i), to);
+    for (int i = 0; options_row(c, i); i++) {
+        const option_row *r = options_row(c, i);
+        const int length = (int)strlen(r->name), name = length > 10 ? length : 10; /* then fewer blanks */
+        const char *argument = r->argument ? r->argument : "";
+        char line[1024], letter[64] = "";
+        if (r->letter) snprintf(letter, sizeof letter, " (-%c%s%s)", r->letter, r->argument ? " " : "", argument);
+        snprintf(line, sizeof line, "  --%-*s %-*s  %s%s", name, r->name, 18 - name, argument, r->doc, letter);
+        iso_fold_line(to, line, strlen(line), width_of(to));
+    }
     fputc('\n', to);
     print_lines(c->description, 0, to);
     fputs("\nexample\n", to);
@@ -50,22 +47,19 @@ void help_command(const command *c, FILE *to)
     print_lines(c->exits, 2, to);
 }
 
-static void print_command(const command *c, FILE *to)
-{
-    char line[512];
-    snprintf(line, sizeof line, "  %-11s  %-9s  %s", c->name, c->argument, command_doc(c));
-    iso_fold_line(to, line, strlen(line), width_of(to));
-}
-
 void help_program(FILE *to)
 {
     const command *const *c = commands;
+    char line[512];
     print_lines(about_isoroll, 0, to);
     print_lines("\nusage: isoroll COMMAND [options] [SCENE or FILE]      - is standard input or output", 0, to);
     for (int g = 0; command_groups[g].title; g++) {
         fputc('\n', to);
         print_lines(command_groups[g].title, 0, to);
-        for (int i = 0; i < command_groups[g].count; i++) print_command(*c++, to);
+        for (int i = 0; i < command_groups[g].count; i++, c++) {
+            snprintf(line, sizeof line, "  %-11s  %-9s  %s", (*c)->name, (*c)->argument, command_doc(*c));
+            iso_fold_line(to, line, strlen(line), width_of(to));
+        }
     }
     print_lines("isoroll help COMMAND       the options of a command, as isoroll COMMAND --help\n"
                 "isoroll --version          the versions of isoroll and its libraries\n",

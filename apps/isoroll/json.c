@@ -40,7 +40,8 @@ json_t *json_text(const char *text)
     return made;
 }
 
-json_t *json_columns(const iso_record *r)
+/* All columns of a record. */
+static json_t *columns_of(const iso_record *r)
 {
     json_t *o = json_object();
     for (size_t c = 0; c < iso_record_columns(r); c++) {
@@ -52,22 +53,18 @@ json_t *json_columns(const iso_record *r)
     return o;
 }
 
-static void add_expressions(json_t *to, const iso_effects *effects, iso_effect_id id)
-{
-    const iso_effect *e = iso_effect_list[id];
-    for (int i = 0; e->expressions && e->expressions[i]; i++)
-        if (iso_written_has(effects, id, i))
-            json_object_set_new(to, e->expressions[i], json_text(effects->written[e->written].expression[i]));
-}
-
 json_t *json_effects(const iso_effects *effects, bool all)
 {
     json_t *o = json_object();
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
         if (!effects->on[e]) continue;
         json_t *numbers = json_object();
-        add_expressions(numbers, effects, e);
+        const char *const *name = iso_effect_list[e]->expressions;
         iso_effect_number n;
+        for (int i = 0; name && name[i]; i++)
+            if (iso_written_has(effects, e, i))
+                json_object_set_new(numbers, name[i],
+                                    json_text(effects->written[iso_effect_list[e]->written].expression[i]));
         for (int j = 0; iso_effect_number_at(effects, e, j, &n); j++) {
             json_t *list = json_array();
             const double *x = iso_effect_values(effects, e, &n);
@@ -124,7 +121,7 @@ static json_t *member_of(const iso_field *f, const void *row)
     }
     if (!iso_field_is_there(f, row)) return json_null();
     if (f->type == ISO_FIELD_RECORD)
-        return json_columns(*(iso_record *const *)(const void *)((const char *)row + f->offset));
+        return columns_of(*(iso_record *const *)(const void *)((const char *)row + f->offset));
     if (f->type != ISO_FIELD_LIST) return values_of(f, row);
     json_t *list = json_array();
     const void *item;
@@ -145,20 +142,14 @@ void json_put(json_t *o, const char *name, json_t *value)
     json_object_set_new(o, name, value);
 }
 
-/* A nan is there: it is null. */
-static bool is_missing(const iso_field *f, const void *row)
-{
-    iso_value v;
-    if (f->type >= ISO_FIELD_STRUCT || f->count > 1) return !iso_field_is_there(f, row);
-    iso_field_read(f, row, 0, &v);
-    return !v.there;
-}
-
 void json_add(json_t *o, const iso_field *fields, const void *row)
 {
     for (const iso_field *f = fields; f->name; f++) {
         if (f->how & ISO_IN_TABLE) continue;
-        if (f->how & ISO_OPTIONAL && is_missing(f, row)) continue;
+        iso_value v = {.there = true};
+        const bool many = f->type >= ISO_FIELD_STRUCT || f->count > 1;
+        if (f->how & ISO_OPTIONAL && !many) iso_field_read(f, row, 0, &v); /* a nan is not there */
+        if (f->how & ISO_OPTIONAL && !(many ? iso_field_is_there(f, row) : v.there)) continue;
         json_t *value = member_of(f, row);
         if (*f->name)
             json_put(o, f->name, value);

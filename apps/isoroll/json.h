@@ -29,9 +29,6 @@ void json_add(json_t *o, const iso_field *fields, const void *row);
 /* Adds one member, "a.b": to the object a in o. */
 void json_put(json_t *o, const char *name, json_t *value);
 
-/* All columns of a record. */
-json_t *json_columns(const iso_record *r);
-
 /* The effects that act, with their numbers: those of trajectory files, or all. */
 json_t *json_effects(const iso_effects *effects, bool all);
 

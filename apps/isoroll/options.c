@@ -54,14 +54,6 @@ static void add_word(const char *before, const char *word)
     add(quoted ? "'" : "");
 }
 
-static void add_option(const option_row *r, const char *text)
-{
-    if (r->aside || r->file == OPTION_WRITES) return;
-    add(" --");
-    add(r->name);
-    if (text) add_word(r->argument[0] == '[' ? "=" : " ", text);
-}
-
 /* --- reading ---------------------------------------------------------------------------------------------------- */
 
 enum { MOST_ROWS = 32, LONG = 256 /* above all letters */ };
@@ -93,27 +85,19 @@ static options_result wrong(const command *c, const char *what, const char *whic
     return OPTIONS_WRONG;
 }
 
-/* Writes the options that begin with `name` into `list`; returns their number. */
-static int begin_with(const command *c, const char *name, size_t length, char list[200])
-{
-    int count = 0;
-    *list = '\0';
-    for (int i = 0; options_row(c, i); i++) {
-        const char *one = options_row(c, i)->name;
-        if (strncmp(one, name, length) != 0 || strlen(list) + strlen(one) + 8 > 200) continue;
-        snprintf(list + strlen(list), 200 - strlen(list), "%s--%s", count++ > 0 ? ", " : "", one);
-    }
-    return count;
-}
-
 /* A long option that is not known, fits more than one, or has an argument that it does not take. */
 static options_result wrong_long(const command *c, const char *text)
 {
     const char *names[MOST_ROWS], *name = text + strspn(text, "-");
     const size_t length = strcspn(name, "=");
     size_t count = 0;
-    char list[200], bare[64];
-    const int fit = begin_with(c, name, length, list);
+    int fit = 0; /* options that begin with the name */
+    char list[200] = "", bare[64];
+    for (int i = 0; options_row(c, i); i++) {
+        const char *one = options_row(c, i)->name;
+        if (strncmp(one, name, length) != 0 || strlen(list) + strlen(one) + 8 > sizeof list) continue;
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s--%s", fit++ > 0 ? ", " : "", one);
+    }
     if (fit > 1) return complain("%s: ambiguous option %s: it fits %s", c->name, text, list), OPTIONS_WRONG;
     if (fit == 1) return complain("%s: %s: the option %s takes no argument", c->name, text, list), OPTIONS_WRONG;
     for (int i = 0; options_row(c, i) && count < MOST_ROWS; i++) names[count++] = options_row(c, i)->name;
@@ -122,15 +106,6 @@ static options_result wrong_long(const command *c, const char *text)
     if (gone) return complain("%s: there is no option --%s any more: %s", c->name, bare, gone), OPTIONS_WRONG;
     if (!near) return wrong(c, "unknown option ", text);
     return complain("%s: unknown option %s; did you mean '--%s'?", c->name, text, near), OPTIONS_WRONG;
-}
-
-/* The row of what getopt_long found: LONG + its index, or its letter. */
-static const option_row *found_row(const command *c, int found)
-{
-    if (found >= LONG) return options_row(c, found - LONG);
-    int i = 0;
-    while (options_row(c, i)->letter != found) i++;
-    return options_row(c, i);
 }
 
 /* What getopt_long is given: the long names, and the letters after the colon that makes it silent. --csv is a
@@ -211,17 +186,6 @@ static const char *without_dot(const char *path)
     return path;
 }
 
-/* Whether a row before the n-th writes to `path`, too. */
-static bool is_written_before(const command *c, int n, const char *path, const char *options)
-{
-    for (int i = 0; i < n; i++) {
-        const char *other = path_of(options_row(c, i), OPTION_WRITES, options);
-        if (other && (strcmp(without_dot(path), without_dot(other)) == 0 || same_file(path, other, "/dev/null")))
-            return true;
-    }
-    return false;
-}
-
 /* No file is written in the place of one that is read, also not before it gets its name; and no two in one place. */
 static options_result keep_files_apart(const command *c, const char *options)
 {
@@ -232,8 +196,11 @@ static options_result keep_files_apart(const command *c, const char *options)
         const bool read = is_read(c, path, options) || (part && is_read(c, part, options));
         free(part);
         if (read) return complain("%s: '%s' would overwrite what is read", c->name, path), OPTIONS_WRONG;
-        if (is_written_before(c, i, path, options))
-            return complain("%s: '%s' would be two files in one", c->name, path), OPTIONS_WRONG;
+        for (int before = 0; before < i; before++) {
+            const char *other = path_of(options_row(c, before), OPTION_WRITES, options);
+            if (other && (strcmp(without_dot(path), without_dot(other)) == 0 || same_file(path, other, "/dev/null")))
+                return complain("%s: '%s' would be two files in one", c->name, path), OPTIONS_WRONG;
+        }
     }
     return OPTIONS_DONE;
 }
@@ -253,12 +220,17 @@ options_result options_read(const command *c, int argc, char **argv, void *optio
         if (found == '?' && optopt > 0 && optopt < LONG)
             return wrong(c, "unknown option ", (char[]){'-', (char)optopt, '\0'});
         if (found == '?') return wrong_long(c, argv[optind - 1]);
-        const option_row *r = found_row(c, found);
+        int i = found >= LONG ? found - LONG : 0; /* of a letter it is sought */
+        while (found < LONG && options_row(c, i)->letter != found) i++;
+        const option_row *r = options_row(c, i);
         if (r == &help_row)
             help = true;
         else if (!set_option(c, r, optarg, options))
             return OPTIONS_WRONG;
-        add_option(r, optarg);
+        if (r->aside || r->file == OPTION_WRITES) continue; /* it changes no number of a table */
+        add(" --");
+        add(r->name);
+        if (optarg) add_word(r->argument[0] == '[' ? "=" : " ", optarg);
     }
     for (int i = optind; i < argc; i++) add_word(strncmp(argv[i], "-", 1) == 0 && argv[i][1] ? " ./" : " ", argv[i]);
     const options_result result = set_file(c, argc, argv, help, options);

@@ -72,17 +72,12 @@ int program_flush(int status)
     return status == EXIT_DONE ? EXIT_FILE : status;
 }
 
-/* A file that we open must not get the number of a closed standard stream: messages would be written into it. Writing
- * to a closed stdout still fails, since /dev/null is opened for reading there. */
-static void fill_closed_streams(void)
-{
-    for (int fd = 0; fd <= 2; fd++)
-        if (fcntl(fd, F_GETFD) < 0) (void)!open("/dev/null", fd == 2 ? O_WRONLY : O_RDONLY);
-}
-
 void program_begin(void)
 {
-    fill_closed_streams();
+    /* A file that we open must not get the number of a closed standard stream: messages would be written into it.
+     * Writing to a closed stdout still fails, since /dev/null is opened for reading there. */
+    for (int fd = 0; fd <= 2; fd++)
+        if (fcntl(fd, F_GETFD) < 0) (void)!open("/dev/null", fd == 2 ? O_WRONLY : O_RDONLY);
     signal(SIGPIPE, SIG_IGN); /* a failed write says so: to a closed pipe, and to a file that would be too large */
     signal(SIGXFSZ, SIG_IGN);
     end_tidily();

@@ -11,7 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "terminal.h"
+#include "report.h"
 
 enum { WIDTH = 40, LINE = 80, WORDS = 32 /* the percentage, and the times */ };
 
@@ -44,20 +44,6 @@ static int print_time(char *to, size_t room, double seconds)
     return snprintf(to, room, "%.0f:%02.0f:%02d", hours, minutes, rest);
 }
 
-/* The part that is done, the time since the beginning, and what is left if all goes on as fast. */
-static void print_words(char words[LINE])
-{
-    const double elapsed = wall_seconds() - bar.begun, done = bar.part - bar.first;
-    int used = bar.what ? snprintf(words, LINE, "%s, ", bar.what) : 0;
-    if (!bar.what || !isnan(bar.part))
-        used += snprintf(words + used, (size_t)(LINE - used), "%3.0f %% ", 100 * (isnan(bar.part) ? 0 : bar.part));
-    used += print_time(words + used, (size_t)(LINE - used), elapsed);
-    if (bar.what || !(done > 0)) return;
-    used += snprintf(words + used, (size_t)(LINE - used), ", ");
-    used += print_time(words + used, (size_t)(LINE - used), elapsed * (1 - bar.part) / done);
-    snprintf(words + used, (size_t)(LINE - used), " left");
-}
-
 static void draw(void)
 {
     char words[LINE];
@@ -65,7 +51,16 @@ static void draw(void)
     const bool coloured = !no_color || !*no_color;
     const double part = isnan(bar.part) ? 0 : bar.part;
     const int room = terminal_width(stderr) - WORDS - 1, width = room < WIDTH ? room : WIDTH;
-    print_words(words);
+    /* the part that is done, the time since the beginning, and what is left if all goes on as fast */
+    const double elapsed = wall_seconds() - bar.begun, done = bar.part - bar.first;
+    int used = bar.what ? snprintf(words, LINE, "%s, ", bar.what) : 0;
+    if (!bar.what || !isnan(bar.part)) used += snprintf(words + used, (size_t)(LINE - used), "%3.0f %% ", 100 * part);
+    used += print_time(words + used, (size_t)(LINE - used), elapsed);
+    if (!bar.what && done > 0) {
+        used += snprintf(words + used, (size_t)(LINE - used), ", ");
+        used += print_time(words + used, (size_t)(LINE - used), elapsed * (1 - bar.part) / done);
+        snprintf(words + used, (size_t)(LINE - used), " left");
+    }
     fprintf(stderr, "\r%s", coloured ? "\033[36m" : "");
     for (int i = 0; i < width; i++) fputc(i < (int)(part * width) ? '#' : '.', stderr);
     fprintf(stderr, "%s %-*s", coloured ? "\033[0m" : "", WORDS - 2, words);
@@ -140,7 +135,7 @@ void progress_show(double part)
     pthread_mutex_unlock(&lock);
 }
 
-void progress_told(void *unused, double part)
+void progress_sink(void *unused, double part)
 {
     (void)unused;
     progress_show(part);

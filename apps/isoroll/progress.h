@@ -2,7 +2,7 @@
  * "drawing" while gnuplot works.
  *
  *     progress_begin();
- *     status = long_work(ctx, ..., progress_told, ...);      calls progress_show(part) now and then, or never
+ *     status = long_work(ctx, ..., progress_sink, ...);      calls progress_show(part) now and then, or never
  *     progress_end();                                        before anything is printed on standard output
  *
  * The bar is drawn on a terminal only, and only after the first second. A thread of its own draws it: time runs on
@@ -20,7 +20,7 @@ void progress_begin_rows(const char *output);
 void progress_show(double part);
 
 /* The same, for options of the library that take such a function. */
-void progress_told(void *unused, double part);
+void progress_sink(void *unused, double part);
 
 /* What is done from now on until progress_end, "drawing" or another word: the bar shows it, and a part only if it is
  * told. */

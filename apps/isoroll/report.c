@@ -1,17 +1,18 @@
-/* report.c - messages on stderr, exit statuses, and the signals that ask a command to stop (see report.h). */
+/* report.c - text for people, messages, exit statuses, and the signals that ask a command to stop (see report.h). */
 #include "report.h"
 
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "io/output_impl.h"
 #include "io/text_impl.h"
 #include "progress.h"
-#include "terminal.h"
 
 static volatile sig_atomic_t stop_asked, stop_signal;
 
@@ -79,6 +80,23 @@ void begin_work(iso_context *ctx, const char *rows)
     iso_context_set_monitor(ctx, not_interrupted, NULL);
 }
 
+/* --- text ------------------------------------------------------------------------------------------------------- */
+
+int terminal_width(FILE *stream)
+{
+    enum { LEAST_WIDTH = 40, MOST_WIDTH = 10000 };
+    struct winsize size;
+    const char *columns = getenv("COLUMNS");
+    const bool is_terminal = isatty(fileno(stream));
+    const long wanted = columns ? strtol(columns, NULL, 10) : 0;
+    long width = is_terminal ? USUAL_WIDTH : ISO_ANY_WIDTH;
+    if (is_terminal && ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+        width = size.ws_col;
+    else if (wanted > 0 && wanted <= MOST_WIDTH)
+        width = wanted;
+    return width == ISO_ANY_WIDTH || width >= LEAST_WIDTH ? (int)width : LEAST_WIDTH;
+}
+
 static bool silently;
 static char kept[2048];
 
@@ -101,17 +119,10 @@ const char *complaint(void)
     return kept;
 }
 
-/* Folded on a terminal alone: elsewhere a message is one line. */
-static void print_message(void)
-{
-    char line[sizeof kept + 16];
-    const int length = snprintf(line, sizeof line, "isoroll: %s", kept);
-    iso_fold_line(stderr, line, (size_t)length, isatty(STDERR_FILENO) ? terminal_width(stderr) : ISO_ANY_WIDTH);
-}
-
 /* File names may hold control characters: they become question marks. */
 void complain(const char *format, ...)
 {
+    char line[sizeof kept + 16];
     va_list args;
     va_start(args, format);
     vsnprintf(kept, sizeof kept, format, args);
@@ -119,8 +130,9 @@ void complain(const char *format, ...)
     for (char *c = kept; *c; c++)
         if ((unsigned char)*c < ' ' || *c == 0x7f) *c = '?';
     if (silently) return;
-    progress_pause();
-    print_message();
+    const int length = snprintf(line, sizeof line, "isoroll: %s", kept);
+    progress_pause(); /* a message is folded on a terminal alone: elsewhere it is one line */
+    iso_fold_line(stderr, line, (size_t)length, isatty(STDERR_FILENO) ? terminal_width(stderr) : ISO_ANY_WIDTH);
     progress_resume();
 }
 
@@ -150,4 +162,13 @@ int finish(iso_context *ctx, iso_status status)
 int finish_scene(iso_context *ctx, const char *file, const iso_scene *scene, iso_status status)
 {
     return finish(ctx, iso_scene_blame(ctx, scene, iso_text_name(file), status));
+}
+
+iso_status name_the_file(iso_context *ctx, const char *file, iso_status status)
+{
+    const bool named = status == ISO_OK || status == ISO_BAD_ARGUMENT || status == ISO_FILE_TROUBLE ||
+                       status == ISO_CLOSED_PIPE || iso_context_has_place(ctx);
+    if (named) return status;
+    return iso_context_fail(ctx, status, iso_context_about(ctx), "%s: %s", iso_text_name(file),
+                            iso_context_message(ctx));
 }

@@ -3,8 +3,10 @@
 #define ISOROLL_REPORT_H
 
 #include <stdbool.h>
+#include <stdio.h>
 
 #include "api/typed_impl.h"
+#include "base/fold_impl.h"
 #include "io/table_impl.h"
 #include "orbit/orbit_impl.h"
 
@@ -16,6 +18,11 @@ enum exit_status {
     EXIT_NUMERICAL = 4,
     EXIT_FILE = 5,
 };
+
+/* Text for people is as wide as the terminal. A pipe or a file gets each line whole, so that `grep` finds what stands in
+ * it, unless the environment's COLUMNS says how wide it should be. Returns ISO_ANY_WIDTH for such a stream. */
+enum { USUAL_WIDTH = 80 };
+int terminal_width(FILE *stream);
 
 /* Prints "isoroll: MESSAGE" on stderr, in one line. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
@@ -34,6 +41,10 @@ int finish(iso_context *ctx, iso_status status);
 /* As finish(), after a failure with the scene: says where in its file the cause stands, unless an option put it
  * there. */
 int finish_scene(iso_context *ctx, const char *file, const iso_scene *scene, iso_status status);
+
+/* Puts the file's name before the context's message, unless it names a place, a file or an option already. Returns
+ * `status`. */
+iso_status name_the_file(iso_context *ctx, const char *file, iso_status status);
 
 /* The worse of two exit statuses. */
 int worse(int a, int b);

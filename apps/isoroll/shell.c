@@ -5,7 +5,6 @@
 
 #include "base/record_impl.h"
 #include "command.h"
-#include "terminal.h"
 
 static void show_note(void *data, const char *text)
 {
@@ -31,8 +30,8 @@ static iso_status prepare(shell *s, const shell_parts *parts, iso_table_writer *
     if (parts->check)
         ISO_TRY(parts->check(s));
     else if (o->json && prints_table(s))
-        return iso_context_fail(s->ctx, ISO_BAD_ARGUMENT, "output",
-                                "%s: -o - and --json both write to standard output: choose one", s->study->name);
+        return ISO_FAIL_ARGUMENT(s->ctx, "output", "%s: -o - and --json both write to standard output: choose one",
+                                 s->study->name);
     ISO_TRY(iso_plot_check_page(s->ctx, &o->plot));
     ISO_TRY(iso_scene_load(s->ctx, o->file, &s->scene));
     if (parts->change) ISO_TRY(parts->change(s));
@@ -42,18 +41,6 @@ static iso_status prepare(shell *s, const shell_parts *parts, iso_table_writer *
 int shell_draw(const shell *s, const iso_record *table)
 {
     return finish(s->ctx, plot_table(s->ctx, &s->common->plot, table));
-}
-
-/* Prints text or JSON, unless the table goes to standard output. */
-static int print(const shell *s, const shell_parts *parts)
-{
-    const iso_study_result *r = &s->result;
-    if (s->common->json) {
-        json_t *o = parts->json ? parts->json(s) : json_of_scene(&s->scene, r->fields, r->found);
-        return json_print(o) ? EXIT_DONE : EXIT_NUMERICAL;
-    }
-    if (r->text && !prints_table(s)) iso_fold(stdout, r->text, terminal_width(stdout));
-    return EXIT_DONE;
 }
 
 /* Writes and draws the table. In a file it says what it is of, not all that was found: the scene's numbers, the version
@@ -81,7 +68,7 @@ int shell_run(iso_context *ctx, const iso_study *study, const shell_parts *parts
                .study = study,
                .options = options,
                .common = common,
-               .result = {.sink = {.note = show_note, .progress = progress_told}}};
+               .result = {.sink = {.note = show_note, .progress = progress_sink}}};
     iso_table_writer *writer = NULL;
     iso_status status = prepare(&s, parts, &writer);
     if (status != ISO_OK) return finish_scene(ctx, common->file, &s.scene, status);
@@ -96,7 +83,12 @@ int shell_run(iso_context *ctx, const iso_study *study, const shell_parts *parts
         iso_table_writer_close(ctx, writer, false);
     } else {
         if (s.result.failed) result = worse(result, EXIT_SOME_FAILED);
-        result = worse(result, print(&s, parts));
+        if (common->json) {
+            json_t *o = parts->json ? parts->json(&s) : json_of_scene(&s.scene, s.result.fields, s.result.found);
+            result = worse(result, json_print(o) ? EXIT_DONE : EXIT_NUMERICAL);
+        } else if (s.result.text && !prints_table(&s)) {
+            iso_fold(stdout, s.result.text, terminal_width(stdout));
+        }
         if (parts->write) result = worse(result, parts->write(&s));
         result = worse(result, save(&s, parts, writer));
     }

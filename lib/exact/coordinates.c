@@ -81,39 +81,29 @@ double iso_separation_constant(const iso_problem *problem, const iso_conical *at
 
 /* --- where the motion changes ----------------------------------------------------------------------------------- */
 
-/* The largest R on [b2, b3], which is concave: at an end, or where its slope is 0. */
-static double summit(const potential *f)
-{
-    const double *b = f->b;
-    if (slope(f, b[2], b[2]) >= 0) return b[2];
-    if (slope(f, b[1], b[1]) <= 0) return b[1];
-    return (b[0] + b[1] + b[2] + f->H / f->eps) / 2;
-}
-
-/* Inserts `one` by descending c, unless its z is already in the list. */
-static int insert(iso_bifurcation list[], int count, iso_bifurcation one)
-{
-    int at = count;
-    for (int i = 0; i < count; i++)
-        if (list[i].z == one.z) return count;
-    for (; at > 0 && list[at - 1].c < one.c; at--) list[at] = list[at - 1];
-    list[at] = one;
-    return count + 1;
-}
-
-/* Motion needs R(u) <= -c <= R(v) for some u and v: -c is between R(b1) and the summit. */
+/* Motion needs R(u) <= -c <= R(v) for some u and v: -c is between R(b1) and the summit, the largest R on [b2, b3]: R is
+ * concave there, so the summit is at an end, or where the slope of R is 0. */
 int iso_bifurcations(const iso_problem *problem, iso_bifurcation list[ISO_MOST_BIFURCATIONS])
 {
     iso_conical at;
     iso_conical_from_vector(moments(&problem->p), (const double[]){0, 0, 1}, NULL, &at); /* for b and the axes */
     const potential f = potential_of(problem, at.b);
-    if (!f.separates || !(f.eps > 0) || !(slope(&f, f.b[0], f.b[1]) > 0)) return 0;
-    const double top = summit(&f), z[ISO_MOST_BIFURCATIONS] = {f.b[0], f.b[1], f.b[2], top};
+    const double *b = f.b;
+    if (!f.separates || !(f.eps > 0) || !(slope(&f, b[0], b[1]) > 0)) return 0;
+    const double summit = slope(&f, b[2], b[2]) >= 0   ? b[2]
+                          : slope(&f, b[1], b[1]) <= 0 ? b[1]
+                                                       : (b[0] + b[1] + b[2] + f.H / f.eps) / 2;
+    const double z[ISO_MOST_BIFURCATIONS] = {b[0], b[1], b[2], summit};
     int count = 0;
     for (int j = 0; j < ISO_MOST_BIFURCATIONS; j++) {
-        if (j == 2 && slope(&f, f.b[0], f.b[2]) <= 0) continue; /* R(b3) is not between them */
-        const bool end = z[j] == f.b[0] || z[j] == top;
-        count = insert(list, count, (iso_bifurcation){-value(&f, z[j]), z[j], j < 3 ? at.axis[j] : -1, !end});
+        bool known = j == 2 && slope(&f, b[0], b[2]) <= 0; /* R(b3) is not between them */
+        for (int i = 0; i < count; i++) known = known || list[i].z == z[j];
+        if (known) continue;
+        const bool end = z[j] == b[0] || z[j] == summit;
+        const iso_bifurcation one = {-value(&f, z[j]), z[j], j < 3 ? at.axis[j] : -1, !end};
+        int place = count++; /* by descending c */
+        for (; place > 0 && list[place - 1].c < one.c; place--) list[place] = list[place - 1];
+        list[place] = one;
     }
     return count;
 }

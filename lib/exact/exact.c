@@ -25,7 +25,7 @@ typedef struct homoclinic_end {
 
 struct iso_exact {
     const iso_form *form;
-    void *data;
+    form_motion motion;
     double frame[9]; /* its rows are the axes in which the form works, in the caller's ... */
     bool turned;     /* ... if they are others                                            */
     iso_params params;
@@ -34,27 +34,15 @@ struct iso_exact {
     homoclinic_end past, future;
 };
 
-/* M and gamma along the axes of the form, and back. */
-static void to_form(const iso_exact *x, const double from[ISO_STATE], double to[ISO_STATE])
+/* Errors: effects, numbers that are not finite or out of range, and a state that is not on the level. */
+static iso_status check(iso_context *ctx, const iso_problem *f, const double point[ISO_STATE])
 {
-    double y[ISO_STATE];
-    copy(from, y, ISO_STATE);
-    for (int i = 0; i < ISO_STATE; i++) to[i] = x->turned ? dot(x->frame + 3 * (i % 3), y + i / 3 * 3) : y[i];
-}
-
-static void from_form(const iso_exact *x, const double from[ISO_STATE], double to[ISO_STATE])
-{
-    double y[ISO_STATE];
-    copy(from, y, ISO_STATE);
-    for (int i = 0; i < ISO_STATE; i++) {
-        const double *of = y + i / 3 * 3, *e = x->frame + i % 3;
-        to[i] = x->turned ? of[0] * e[0] + of[1] * e[3] + of[2] * e[6] : y[i];
-    }
-}
-
-/* Errors: numbers that are not finite or out of range, and a state that is not on the level. */
-static iso_status check_numbers(iso_context *ctx, const iso_problem *f, const double point[ISO_STATE])
-{
+    const iso_effect *effect = iso_effects_beyond_rotor(&f->effects);
+    if (!effect) effect = iso_effects_ball_only(&f->effects);
+    if (effect)
+        return ISO_FAIL_ARGUMENT(ctx, effect->name,
+                                 "the closed solution is for a free motion or one with a rotor, not with '%s'",
+                                 effect->name);
     const double *g = point + 3, square = dot(g, g);
     if (!all_finite(point, ISO_STATE) || !(square > 0))
         return ISO_FAIL_ARGUMENT(ctx, "", "the start is not finite, or gamma is zero");
@@ -66,36 +54,20 @@ static iso_status check_numbers(iso_context *ctx, const iso_problem *f, const do
     return ISO_FAIL_ARGUMENT(ctx, iso_level_name(), "this start is not on the level H = %s", ISO_SHORT(f->energy));
 }
 
-static iso_status check(iso_context *ctx, const iso_problem *f, const double point[ISO_STATE])
-{
-    const iso_effect *effect = iso_effects_beyond_rotor(&f->effects);
-    if (!effect) effect = iso_effects_ball_only(&f->effects);
-    if (!effect) return check_numbers(ctx, f, point);
-    return ISO_FAIL_ARGUMENT(ctx, effect->name,
-                             "the closed solution is for a free motion or one with a rotor, not with '%s'",
-                             effect->name);
-}
-
-static const iso_form *form_for(const iso_problem *f, const double point[ISO_STATE])
-{
-    for (int i = 0; forms[i]; i++)
-        if (forms[i]->serves(f, point)) return forms[i];
-    return NULL;
-}
-
 /* Three equal moments are equal about all axes: the third axis of the form is turned into K. */
 static void turn_axes(iso_exact *x, iso_problem *f, double point[ISO_STATE])
 {
     const double *K = iso_effects_rotor(&f->effects), size = norm(K);
     const int zeros = (K[0] == 0) + (K[1] == 0) + (K[2] == 0), least = fabs(K[0]) < fabs(K[1]) ? 0 : 1;
-    double *const e1 = x->frame, *const e2 = e1 + 3, *const e3 = e2 + 3, own[3] = {0, 0, size};
+    double *const e1 = x->frame, *const e2 = e1 + 3, *const e3 = e2 + 3, own[3] = {0, 0, size}, y[ISO_STATE];
     x->turned = zeros < 2 && iso_params_symmetric(&f->p, 0) && iso_params_symmetric(&f->p, 1);
     if (!x->turned) return;
     for (int i = 0; i < 3; i++) e3[i] = K[i] / size, e1[i] = i == least;
     remove_along(e1, e3), remove_along(e1, e3);
     make_unit(e1);
     cross(e3, e1, e2);
-    to_form(x, point, point);
+    copy(point, y, ISO_STATE);
+    for (int i = 0; i < ISO_STATE; i++) point[i] = dot(x->frame + 3 * (i % 3), y + i / 3 * 3);
     iso_effects_set_rotor(&f->effects, own);
 }
 
@@ -103,13 +75,17 @@ static void turn_axes(iso_exact *x, iso_problem *f, double point[ISO_STATE])
  * are set to zero first. */
 static iso_status find_form(iso_context *ctx, const iso_problem *f, double point[ISO_STATE], const iso_form **form)
 {
-    double snapped[ISO_STATE], size[2];
-    *form = form_for(f, point);
-    if (*form) return ISO_OK;
-    for (int i = 0; i < 2; i++) size[i] = largest(point + 3 * i);
-    for (int i = 0; i < ISO_STATE; i++) snapped[i] = fabs(point[i]) <= 4 * DBL_EPSILON * size[i / 3] ? 0 : point[i];
-    *form = form_for(f, snapped);
-    if (*form) return copy(snapped, point, ISO_STATE), ISO_OK;
+    double snapped[ISO_STATE];
+    for (int i = 0; i < ISO_STATE; i++)
+        snapped[i] = fabs(point[i]) <= 4 * DBL_EPSILON * largest(point + i / 3 * 3) ? 0 : point[i];
+    const double *const tried[] = {point, snapped};
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; forms[j]; j++)
+            if (forms[j]->serves(f, tried[i])) {
+                *form = forms[j];
+                copy(tried[i], point, ISO_STATE);
+                return ISO_OK;
+            }
     const iso_effect *rotor = iso_effects_beyond_level(&f->effects);
     if (rotor)
         return ISO_FAIL_ARGUMENT(
@@ -156,7 +132,7 @@ static void count_moment(const iso_exact *x, iso_clock clock, real time, form_pl
     real mean[ISO_CLOCKS] = {0};
     for (int i = 0; i < 5; i++) {
         form_place at = {.along = NAN};
-        x->form->find(x->data, clock, time * (1 + node[i]) / 2, &at);
+        x->form->find(x->motion.data, clock, time * (1 + node[i]) / 2, &at);
         const double q = dot_diag(at.point + 3, x->params.J, at.point + 3);
         const double own = iso_clock_rate(&x->params, clock, q, NULL);
         for (iso_clock c = 0; c < ISO_CLOCKS; c++)
@@ -172,7 +148,7 @@ static void find(const iso_exact *x, iso_clock clock, real time, form_place *p)
     const bool earlier = x->past.rotation && time < x->past.clock[clock];
     const homoclinic_end *end = later ? &x->future : &x->past;
     if (!later && !earlier) {
-        x->form->find(x->data, clock, time, p);
+        x->form->find(x->motion.data, clock, time, p);
         if (fabsl(time) < x->moment[clock]) count_moment(x, clock, time, p);
         return;
     }
@@ -188,16 +164,18 @@ enum { STEPS_A_TURN = 32, MOST_TURNS = 20000 };
 
 /* Goes away from time 0 until gamma has stayed in the plane of the unstable rotation, to rounding, for a whole turn.
  * The rotation begins there. */
-static iso_status find_end(iso_context *ctx, const iso_problem *f, const iso_exact *x, int axis, int direction,
+static iso_status find_end(iso_context *ctx, const iso_problem *f, const iso_exact *x, int direction,
                            homoclinic_end *end)
 {
-    const int clock = x->has[ISO_CLOCK_T] ? ISO_CLOCK_T : x->has[ISO_CLOCK_S] ? ISO_CLOCK_S : ISO_CLOCK_TAU;
+    const int axis = x->motion.unstable, clock = x->has[ISO_CLOCK_T]   ? ISO_CLOCK_T
+                                                 : x->has[ISO_CLOCK_S] ? ISO_CLOCK_S
+                                                                       : ISO_CLOCK_TAU;
     form_place p = {.along = NAN};
     real time = 0;
     int near = 0;
     for (int i = 0; i < STEPS_A_TURN * MOST_TURNS && near < STEPS_A_TURN; i++) {
         p.along = NAN;
-        x->form->find(x->data, (iso_clock)clock, time, &p);
+        x->form->find(x->motion.data, (iso_clock)clock, time, &p);
         const double *g = p.point + 3, q = dot_diag(g, f->p.J, g), speed = norm(p.point);
         near = fabs(g[axis]) < 1e-16 ? near + 1 : 0;
         time += direction * iso_clock_rate(&f->p, (iso_clock)clock, q, NULL) /
@@ -215,7 +193,7 @@ static iso_status find_end(iso_context *ctx, const iso_problem *f, const iso_exa
 
 /* --- the front -------------------------------------------------------------------------------------------------- */
 
-/* Whether the solution gives the start at time 0, and a finite state on the level a little later. A small k makes the
+/* Whether the solution returns the start at time 0, and a finite state on the level a little later. A small k makes the
  * rounding of q that of a power. */
 static bool begins(const iso_exact *x, const iso_problem *f, const double point[ISO_STATE])
 {
@@ -224,34 +202,15 @@ static bool begins(const iso_exact *x, const iso_problem *f, const double point[
     for (int c = 0; c < ISO_CLOCKS; c++) {
         form_place p = {.along = NAN};
         if (!x->has[c]) continue;
-        x->form->find(x->data, (iso_clock)c, x->form->rate(x->data, (iso_clock)c), &p);
+        x->form->find(x->motion.data, (iso_clock)c, x->motion.rate[c], &p);
         if (!all_finite(p.point, ISO_STATE)) return false;
         if (!(fabs(iso_system_point.energy(f, p.point, &size) - f->energy) <= near * size)) return false;
         p.along = NAN;
-        x->form->find(x->data, (iso_clock)c, 0, &p);
+        x->form->find(x->motion.data, (iso_clock)c, 0, &p);
         for (int i = 0; i < 3; i++)
             if (!(fabs(p.point[3 + i] - g[i] / length) < 1e-9)) return false;
     }
     return true;
-}
-
-static iso_status make(iso_context *ctx, const iso_problem *problem, const double point[ISO_STATE], iso_exact *x)
-{
-    iso_status status = x->form->make(problem, point, x->has, &x->data);
-    if (status == ISO_NO_MEMORY) return iso_context_fail(ctx, status, "", "no memory for a closed solution");
-    if (status != ISO_OK)
-        return iso_context_fail(ctx, status, "",
-                                "the closed solution would need too many terms: a body too extreme, or an orbit too "
-                                "close to a separatrix");
-    if (!begins(x, problem, point))
-        return ISO_FAIL_NUMERICAL(
-            ctx, "the closed solution has too few digits: a body too extreme, or an orbit that comes to rest");
-    x->params = problem->p;
-    find_moments(problem, point, x->moment);
-    const int axis = x->form->unstable(x->data);
-    if (axis < 0) return status;
-    status = find_end(ctx, problem, x, axis, -1, &x->past);
-    return status == ISO_OK ? find_end(ctx, problem, x, axis, 1, &x->future) : status;
 }
 
 static iso_status create(iso_context *ctx, iso_problem *f, double start[ISO_STATE], const bool clocks[ISO_CLOCKS],
@@ -261,7 +220,21 @@ static iso_status create(iso_context *ctx, iso_problem *f, double start[ISO_STAT
     turn_axes(x, f, start);
     ISO_TRY(find_form(ctx, f, start, &x->form));
     for (int c = 0; c < ISO_CLOCKS; c++) x->has[c] = clocks[c];
-    return make(ctx, f, start, x);
+    x->motion.unstable = -1;
+    const iso_status status = x->form->make(f, start, x->has, &x->motion);
+    if (status == ISO_NO_MEMORY) return iso_context_fail(ctx, status, "", "no memory for a closed solution");
+    if (status != ISO_OK)
+        return iso_context_fail(ctx, status, "",
+                                "the closed solution would need too many terms: a body too extreme, or an orbit too "
+                                "close to a separatrix");
+    if (!begins(x, f, start))
+        return ISO_FAIL_NUMERICAL(
+            ctx, "the closed solution has too few digits: a body too extreme, or an orbit that comes to rest");
+    x->params = f->p;
+    find_moments(f, start, x->moment);
+    if (x->motion.unstable < 0) return ISO_OK;
+    ISO_TRY(find_end(ctx, f, x, -1, &x->past));
+    return find_end(ctx, f, x, 1, &x->future);
 }
 
 iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const double point[ISO_STATE],
@@ -283,44 +256,11 @@ void iso_exact_free(iso_exact *x)
     if (!x) return;
     iso_exact_free(x->past.rotation);
     iso_exact_free(x->future.rotation);
-    if (x->form) x->form->free(x->data);
+    if (x->form) x->form->free(x->motion.data);
     free(x);
 }
 
-static iso_status check_time(iso_context *ctx, const iso_exact *x, iso_clock clock, double time)
-{
-    if (!x->has[clock])
-        return ISO_FAIL_ARGUMENT(ctx, "", "this closed solution was made without the clock %s",
-                                 iso_clock_name(clock));
-    return isfinite(time) ? ISO_OK : ISO_FAIL_ARGUMENT(ctx, "", "a time is not finite");
-}
-
-static iso_status check_place(iso_context *ctx, const iso_exact *x, const form_place *p)
-{
-    bool finite = all_finite(p->point, ISO_STATE);
-    for (int c = 0; c < ISO_CLOCKS; c++) finite = finite && (!x->has[c] || isfinite((double)p->clock[c]));
-    if (finite) return ISO_OK;
-    return ISO_FAIL_NUMERICAL(ctx, "the closed solution is not finite, or has no memory");
-}
-
-static void hand_over(const iso_exact *x, const form_place *p, double point[ISO_STATE], double clocks[ISO_CLOCKS])
-{
-    from_form(x, p->point, point);
-    for (int c = 0; clocks && c < ISO_CLOCKS; c++) clocks[c] = x->has[c] ? (double)p->clock[c] : NAN;
-}
-
-iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, double time, double point[ISO_STATE],
-                        double clocks[ISO_CLOCKS])
-{
-    ISO_DEFAULT_ARITHMETIC;
-    form_place p = {.along = NAN};
-    ISO_TRY(check_time(ctx, x, clock, time));
-    find(x, clock, time, &p);
-    hand_over(x, &p, point, clocks);
-    return check_place(ctx, x, &p);
-}
-
-/* --- grids ------------------------------------------------------------------------------------------------------ */
+/* --- states ----------------------------------------------------------------------------------------------------- */
 
 /* The longest step with a guess, in moments in which gamma turns by a tenth of a radian at most: for longer ones a
  * guess saves little, or nothing. */
@@ -342,49 +282,38 @@ iso_status iso_exact_walk_to(iso_context *ctx, const iso_exact *x, iso_exact_wal
                              double point[ISO_STATE], double clocks[ISO_CLOCKS])
 {
     ISO_DEFAULT_ARITHMETIC;
-    ISO_TRY(check_time(ctx, x, clock, time));
+    if (!x->has[clock])
+        return ISO_FAIL_ARGUMENT(ctx, "", "this closed solution was made without the clock %s",
+                                 iso_clock_name(clock));
+    if (!isfinite(time)) return ISO_FAIL_ARGUMENT(ctx, "", "a time is not finite");
     if (w->known > 0 && !(fabs(time - w->time) <= LONGEST * x->moment[clock])) w->known = 0;
-    const real even = time / x->form->rate(x->data, clock);
+    const real even = time / x->motion.rate[clock];
     const real guess = w->known == ISO_EXACT_TRAIL ? even + extrapolate(w->trail, ISO_EXACT_TRAIL) : NAN;
     form_place p = {.along = guess};
     find(x, clock, time, &p);
-    hand_over(x, &p, point, clocks);
     if (isnan(p.along) || fabsl(guess - p.along) > POOR)
         w->known = 0; /* the end of a separatrix, or steps that are not even */
     if (w->known == ISO_EXACT_TRAIL) memmove(w->trail, w->trail + 1, (size_t)--w->known * sizeof *w->trail);
     w->trail[w->known++] = p.along - even;
     w->time = time;
-    return check_place(ctx, x, &p);
+    for (int i = 0; i < ISO_STATE; i++) {
+        const double *y = p.point + i / 3 * 3, *e = x->frame + i % 3;
+        point[i] = x->turned ? y[0] * e[0] + y[1] * e[3] + y[2] * e[6] : p.point[i];
+    }
+    bool finite = all_finite(p.point, ISO_STATE);
+    for (int c = 0; c < ISO_CLOCKS; c++) {
+        const double shown = x->has[c] ? (double)p.clock[c] : NAN;
+        finite = finite && (!x->has[c] || isfinite(shown));
+        if (clocks) clocks[c] = shown;
+    }
+    return finite ? ISO_OK : ISO_FAIL_NUMERICAL(ctx, "the closed solution is not finite, or has no memory");
 }
 
-/* --- angles ----------------------------------------------------------------------------------------------------- */
-
-static iso_status check_angles(iso_context *ctx, const iso_exact *x)
+iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, double time, double point[ISO_STATE],
+                        double clocks[ISO_CLOCKS])
 {
-    if (x->form->angles && !x->past.rotation) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(ctx, "", "a point at rest and an orbit on a separatrix have no angles");
-}
-
-iso_status iso_exact_angles(iso_context *ctx, const iso_exact *x, const double point[ISO_STATE], double angle[2])
-{
-    ISO_DEFAULT_ARITHMETIC;
-    double own[ISO_STATE];
-    ISO_TRY(check_angles(ctx, x));
-    to_form(x, point, own);
-    if (!all_finite(point, ISO_STATE) || !x->form->angles(x->data, own, angle))
-        return ISO_FAIL_ARGUMENT(ctx, "", "this state is not on the torus of this motion");
-    for (int i = 0; i < 2; i++) angle[i] -= 2 * ISO_PI * floor(angle[i] / (2 * ISO_PI));
-    return ISO_OK;
-}
-
-iso_status iso_exact_point(iso_context *ctx, const iso_exact *x, const double angle[2], double point[ISO_STATE])
-{
-    ISO_DEFAULT_ARITHMETIC;
-    ISO_TRY(check_angles(ctx, x));
-    x->form->point(x->data, angle, point);
-    from_form(x, point, point);
-    if (all_finite(point, ISO_STATE)) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(ctx, "", "an angle is not finite");
+    iso_exact_walk walk = {0};
+    return iso_exact_walk_to(ctx, x, &walk, clock, time, point, clocks);
 }
 
 iso_exact_torus iso_exact_describe(const iso_exact *x)
@@ -392,7 +321,7 @@ iso_exact_torus iso_exact_describe(const iso_exact *x)
     iso_exact_torus nothing = {.action = {NAN, NAN}, .c = NAN, .distance = NAN};
     for (int c = 0; c < ISO_CLOCKS; c++) nothing.frequency[c][0] = nothing.frequency[c][1] = NAN;
     iso_exact_torus torus = nothing;
-    x->form->describe(x->data, x->has, &torus);
+    x->form->describe(x->motion.data, x->has, &torus);
     if (!x->past.rotation) return torus;
     nothing.kind = ISO_EXACT_SEPARATRIX;
     nothing.c = torus.c;

@@ -1,4 +1,4 @@
-/* exact_impl.h - the closed solution (exact.h): states, also in a row, and angles.
+/* exact_impl.h - the closed solution (exact.h): states, also in a row, and the torus.
  *
  *     iso_exact *exact;
  *     iso_exact_create(ctx, &problem, point, all_clocks, &exact); problem: k, J, eps and the level H
@@ -39,7 +39,7 @@ iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const 
 void iso_exact_free(iso_exact *exact);
 
 /* The state (M, gamma) at `time` of `clock`, before or after 0, and the clocks there (NaN: not among those of the
- * creation). Errors: ISO_BAD_ARGUMENT: a time that is not finite, a clock that was not among them; ISO_NUMERICAL: no
+ * creation; NULL: not asked for). Errors: ISO_BAD_ARGUMENT: a time that is not finite, a clock that was not among them; ISO_NUMERICAL: no
  * finite state, or a clock that does not fit a double. */
 iso_status iso_exact_at(iso_context *ctx, const iso_exact *exact, iso_clock clock, double time,
                         double point[ISO_STATE], double clocks[ISO_CLOCKS]);
@@ -56,12 +56,5 @@ typedef struct iso_exact_walk {
 } iso_exact_walk;
 iso_status iso_exact_walk_to(iso_context *ctx, const iso_exact *exact, iso_exact_walk *walk, iso_clock clock,
                              double time, double point[ISO_STATE], double clocks[ISO_CLOCKS]);
-
-/* The angles, in [0, 2 pi), of a state on the orbit's torus, and the state at given angles. A motion with one angle
- * has NaN as its second. Angles grow evenly with sigma for a separated motion, else with s; where they are 0 is the
- * form's choice. Errors: ISO_BAD_ARGUMENT: a motion without angles; a state that turns the other way; numbers that
- * are not finite. */
-iso_status iso_exact_angles(iso_context *ctx, const iso_exact *exact, const double point[ISO_STATE], double angle[2]);
-iso_status iso_exact_point(iso_context *ctx, const iso_exact *exact, const double angle[2], double point[ISO_STATE]);
 
 #endif

@@ -11,28 +11,27 @@ typedef struct form_place {
     real clock[ISO_CLOCKS], along;
 } form_place;
 
+/* What a form makes of a start. */
+typedef struct form_motion {
+    void *data;            /* its own */
+    real rate[ISO_CLOCKS]; /* at which a clock grows with form_place.along, in the mean; of those that are made */
+    /* On a separatrix: the axis of the rotation that the orbit leaves and comes back to; else -1, as it is before. The
+     * form is right until the orbit has come back, and wrong after that. */
+    int unstable;
+} form_motion;
+
 typedef struct iso_form {
     bool (*serves)(const iso_problem *problem, const double point[ISO_STATE]);
 
-    /* Makes *data. Errors: ISO_NUMERICAL (too many terms would be needed), ISO_NO_MEMORY. The caller writes the
-     * message. */
+    /* Errors: ISO_NUMERICAL (too many terms would be needed), ISO_NO_MEMORY; data is then released as well. The caller
+     * writes the message. */
     iso_status (*make)(const iso_problem *problem, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
-                       void **data);
+                       form_motion *m);
     void (*free)(void *data);
 
     /* The place where `clock`, one of those made, shows `time`. If p->along is not NaN, it is a good guess. */
     void (*find)(const void *data, iso_clock clock, real time, form_place *p);
 
-    /* The mean rate at which a clock grows with p->along. */
-    real (*rate)(const void *data, iso_clock clock);
-
-    /* On a separatrix: the axis of the rotation that the orbit leaves and comes back to; else -1. The form is right
-     * until the orbit has come back, and wrong after that. */
-    int (*unstable)(const void *data);
-
-    /* The angles of a state on the torus, and back; NULL where there are none. */
-    bool (*angles)(const void *data, const double point[ISO_STATE], double angle[2]);
-    void (*point)(const void *data, const double angle[2], double point[ISO_STATE]);
     void (*describe)(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *torus);
 } iso_form;
 

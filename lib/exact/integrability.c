@@ -20,17 +20,17 @@ static bool has_second(const iso_problem *f)
     return found && !iso_effects_breaking(&f->effects);
 }
 
-/* The odd integer that 1/k is, up to rounding; 0: none. */
-static double odd_of(double k)
+iso_integrability iso_integrability_of(const iso_params *p, const iso_effects *effects, bool off_level)
 {
-    const double odd = 2 * floor(0.5 / k) + 1;
-    return fabs(1 / k - odd) <= 4 * DBL_EPSILON * fabs(odd) ? odd : 0;
-}
-
-/* Of the free ball with three different moments. */
-static iso_integrability of_k(double k)
-{
-    const double odd = fabs(odd_of(k));
+    const iso_problem f = {.p = *p, .effects = iso_effects_acting(effects)};
+    if (has_second(&f)) return (iso_integrability){ISO_SECOND_INTEGRAL, "a second integral is known"};
+    if (iso_effects_beyond_level(&f.effects))
+        return (iso_integrability){ISO_INTEGRABILITY_OPEN, "the theorem is about the free ball: here an effect acts"};
+    if (off_level || iso_effects_have_level(&f.effects))
+        return (iso_integrability){ISO_INTEGRABILITY_OPEN,
+                                   "the theorem is about the level H = 0; `isoroll splitting` measures other levels"};
+    const double near = 2 * floor(0.5 / p->k) + 1; /* the odd integer that 1/k is, up to rounding; odd = 0: none */
+    const double odd = fabs(1 / p->k - near) <= 4 * DBL_EPSILON * fabs(near) ? fabs(near) : 0;
     if (odd == 1)
         return (iso_integrability){ISO_INTEGRABILITY_OPEN,
                                    "k is so near to 1 or -1 that the difference may be rounding"};
@@ -44,16 +44,4 @@ static iso_integrability of_k(double k)
     return (iso_integrability){ISO_NO_INTEGRAL,
                                "three different moments, 1/k no odd integer: a theorem of ours, by the "
                                "first variation, not reviewed"};
-}
-
-iso_integrability iso_integrability_of(const iso_params *p, const iso_effects *effects, bool off_level)
-{
-    const iso_problem f = {.p = *p, .effects = iso_effects_acting(effects)};
-    if (has_second(&f)) return (iso_integrability){ISO_SECOND_INTEGRAL, "a second integral is known"};
-    if (iso_effects_beyond_level(&f.effects))
-        return (iso_integrability){ISO_INTEGRABILITY_OPEN, "the theorem is about the free ball: here an effect acts"};
-    if (off_level || iso_effects_have_level(&f.effects))
-        return (iso_integrability){ISO_INTEGRABILITY_OPEN,
-                                   "the theorem is about the level H = 0; `isoroll splitting` measures other levels"};
-    return of_k(p->k);
 }

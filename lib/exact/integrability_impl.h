@@ -15,7 +15,7 @@ const char *iso_integrability_name(iso_integrability_kind kind);
 
 typedef struct iso_integrability {
     iso_integrability_kind kind;
-    const char *why; /* in words, static */
+    const char *why; /* static text */
 } iso_integrability;
 
 /* The largest |1/k| for which the residue of the third variation was computed: tests/prove/third_variation.py. */

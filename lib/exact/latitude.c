@@ -39,20 +39,15 @@ static real power_bend(const latitude *r, real power, real x, real y, real z)
     return scale * powl(q, power - 1) * sum;
 }
 
-/* What m is times q^power/(power (J_a - J_e)) */
-static real steepness(const latitude *r)
-{
-    return 2 * r->eps * (r->Ja - r->Je) * r->power;
-}
-
+/* m[y,z] and m[x,y,z]: m is q^power/(power (J_a - J_e)) times 2 eps (J_a - J_e) power, but for a constant. */
 static real slope(const latitude *r, real y, real z)
 {
-    return steepness(r) * power_slope(r, r->power, y, z);
+    return 2 * r->eps * (r->Ja - r->Je) * r->power * power_slope(r, r->power, y, z);
 }
 
 static real bend(const latitude *r, real x, real y, real z)
 {
-    return steepness(r) * power_bend(r, r->power, x, y, z);
+    return 2 * r->eps * (r->Ja - r->Je) * r->power * power_bend(r, r->power, x, y, z);
 }
 
 /* m(y). Off the level H = 0 it is M^2 of the start plus a difference: M^2 may be small beside its two terms. */
@@ -230,32 +225,25 @@ void iso_latitude_range(latitude *r)
  *
  *     Q = m[y,b] - (1 - a) m[y,a,b] + M_x^2[y,a,b],        without b:  Q = m(y) - (1 - a) m[y,a] + M_x^2[y,a].
  *
- * (With 1 - y they cancel to 1e-8 of their size where q^(-1/k) is steep and the orbit passes the pole.) */
-static real rate_squared(const latitude *r, real y, real curved)
-{
-    const real reach = !r->has_b ? 1 : r->side ? r->a : r->a - r->b;
-    if (!r->has_b) return iso_latitude_m(r, y) - r->rest_a * slope(r, y, r->a) + square_slope(r, y, r->a);
-    return reach * (slope(r, y, r->b) - r->rest_a * curved + square_bend(r, y, r->a, r->b));
-}
-
-/* With D = M_x[y,a] and A = M_x(a) + (1 - a) D, M_x = A - (1 - y) D. So psi = -D/(dx/ds) + (A/(dx/ds) - S dn)/(1 - y),
+ * (With 1 - y they cancel to 1e-8 of their size where q^(-1/k) is steep and the orbit passes the pole.)
+ *
+ * With D = M_x[y,a] and A = M_x(a) + (1 - a) D, M_x = A - (1 - y) D. So psi = -D/(dx/ds) + (A/(dx/ds) - S dn)/(1 - y),
  * where the roots P(a) = P(b) = 0 give
  *
  *     A^2 - (S dn dx/ds)^2 = (1 - a) (1 - y) ((1 - b) (m[a,b] + y m[y,a,b]) + D^2 - b M_x^2[y,a,b]),   across the
  *     equator                (1 - a) (1 - y) (m[y,a] + D^2) */
-static real psi_of(const latitude *r, real y, real dn, real rate, real curved)
-{
-    const real D = r->sense * iso_latitude_Mx_slope(r, y, r->a), A = r->Mx_a + r->rest_a * D;
-    const real S = sqrtl(r->rest_a * r->rest_b), sum = A / rate + S * dn;
-    if (A < 0) return -D / rate + (A / rate - S * dn) / (1 - y);
-    const real more = r->side ? r->rest_b * (slope(r, r->a, r->b) + y * curved) - r->b * square_bend(r, y, r->a, r->b)
-                              : slope(r, y, r->a);
-    return -D / rate + (sum > 0 ? r->rest_a * (more + D * D) / (rate * rate) / sum : 0);
-}
-
 real iso_latitude_rate(const latitude *r, real y, real dn, real *psi)
 {
-    const real curved = r->has_b ? bend(r, y, r->a, r->b) : 0, rate = sqrtl(rate_squared(r, y, curved));
-    if (psi) *psi = psi_of(r, y, dn, rate, curved);
+    const real a = r->a, b = r->b, curved = r->has_b ? bend(r, y, a, b) : 0, reach = r->side ? a : a - b;
+    const real square = r->has_b ? reach * (slope(r, y, b) - r->rest_a * curved + square_bend(r, y, a, b))
+                                 : iso_latitude_m(r, y) - r->rest_a * slope(r, y, a) + square_slope(r, y, a);
+    const real rate = sqrtl(square);
+    if (!psi) return rate;
+    const real D = r->sense * iso_latitude_Mx_slope(r, y, a), A = r->Mx_a + r->rest_a * D;
+    const real S = sqrtl(r->rest_a * r->rest_b), sum = A / rate + S * dn;
+    if (A < 0) return *psi = -D / rate + (A / rate - S * dn) / (1 - y), rate;
+    const real more =
+        r->side ? r->rest_b * (slope(r, a, b) + y * curved) - b * square_bend(r, y, a, b) : slope(r, y, a);
+    *psi = -D / rate + (sum > 0 ? r->rest_a * (more + D * D) / (rate * rate) / sum : 0);
     return rate;
 }

@@ -100,10 +100,7 @@ static real invert(const oscillation *o, real th, real low, real *slope)
     real high = ISO_PI_LONG, xi = low, derivative;
     for (int i = 0; i < 100; i++) {
         const real miss = xi + sine_series_l(o->beta, o->modes, xi, &derivative) - th;
-        if (miss > 0)
-            high = xi;
-        else
-            low = xi;
+        *(miss > 0 ? &high : &low) = xi;
         real next = xi - miss / (1 + derivative);
         if (!(next >= low && next <= high)) next = (low + high) / 2;
         const real moved = fabsl(next - xi);
@@ -145,16 +142,16 @@ static const double FIRST = 1e-11;
 static bool find_xi(oscillation *o, int N)
 {
     double *const slope = o->gamma, *const work = o->z, *const z = work + 2 * N; /* work, then z, in one */
-    real low = 0, part, unused, most = 0;
+    real low = 0, part, unused;
     for (int j = 0; j <= N; j++) {
         o->at[j] = z_at(o, low = invert(o, ISO_PI_LONG * j / N, low, &part), &unused);
         slope[j] = (double)(1 / part);
         z[j] = (double)o->at[j];
     }
-    iso_cosine_series(slope, N, 1, work);
-    iso_cosine_series(z, N, 1, work);
-    for (int n = 0; n <= N; n++) most = fmaxl(most, fabs(slope[n]));
-    const bool enough = fabs(slope[N]) + fabs(slope[N - 1]) + fabs(slope[N - 2]) <= 1e-15 * (double)most;
+    cosine_series(slope, N, 1, work);
+    cosine_series(z, N, 1, work);
+    const double most = largest_of(slope, 0, N);
+    const bool enough = fabs(slope[N]) + fabs(slope[N - 1]) + fabs(slope[N - 2]) <= 1e-15 * most;
     o->samples = N;
     o->terms = 0;
     for (int n = 0; n <= N; n++) {

@@ -22,15 +22,16 @@ static bool serves(const iso_problem *f, const double y[ISO_STATE])
     return true;
 }
 
-static iso_status make(const iso_problem *f, const double y[ISO_STATE], const bool clocks[ISO_CLOCKS], void **data)
+static iso_status make(const iso_problem *f, const double y[ISO_STATE], const bool clocks[ISO_CLOCKS], form_motion *m)
 {
-    rest *r = *data = calloc(1, sizeof *r);
+    rest *r = m->data = calloc(1, sizeof *r);
     if (!r) return ISO_NO_MEMORY;
     copy(y + 3, r->point + 3, 3);
     make_unit(r->point + 3);
     const double q = dot_diag(r->point + 3, f->p.J, r->point + 3);
     const double s = iso_clock_rate(&f->p, ISO_CLOCK_S, q, NULL);
-    for (iso_clock c = 0; c < ISO_CLOCKS; c++) r->rate[c] = clocks[c] ? iso_clock_rate(&f->p, c, q, NULL) / s : NAN;
+    for (iso_clock c = 0; c < ISO_CLOCKS; c++)
+        r->rate[c] = m->rate[c] = clocks[c] ? iso_clock_rate(&f->p, c, q, NULL) / s : NAN;
     return ISO_OK;
 }
 
@@ -42,27 +43,10 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     for (int c = 0; c < ISO_CLOCKS; c++) p->clock[c] = c == (int)clock ? time : r->rate[c] * p->along;
 }
 
-static real rate(const void *data, iso_clock clock)
-{
-    return ((const rest *)data)->rate[clock];
-}
-
-static int unstable(const void *data)
-{
-    (void)data;
-    return -1;
-}
-
 static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *to)
 {
     (void)data, (void)clocks;
     to->kind = ISO_EXACT_REST;
 }
 
-const iso_form iso_form_rest = {.serves = serves,
-                                .make = make,
-                                .free = free,
-                                .find = find,
-                                .rate = rate,
-                                .unstable = unstable,
-                                .describe = describe};
+const iso_form iso_form_rest = {.serves = serves, .make = make, .free = free, .find = find, .describe = describe};

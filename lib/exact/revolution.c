@@ -54,24 +54,10 @@ static real square_at(const revolution *r, real cn, real dn)
     return r->x.a * (r->x.side ? dn * dn : cn * cn);
 }
 
-/* y at xi, where it is even about 0 and pi, and d/dxi of the clocks and of psi */
-static real rates_at(const revolution *r, real xi, real rate[SERIES])
-{
-    real sn, cn, dn;
-    iso_elliptic_at(&r->f, xi, &sn, &cn, &dn);
-    const real y = square_at(r, cn, dn), q = iso_latitude_q(&r->x, y);
-    const real ds = r->f.K / ISO_PI_LONG / iso_latitude_rate(&r->x, y, dn, &rate[PSI]);
-    rate[PSI] *= r->f.K / ISO_PI_LONG;
-    rate[ISO_CLOCK_S] = ds;
-    rate[ISO_CLOCK_TAU] = r->det * powl(q, r->x.power) * ds;
-    rate[ISO_CLOCK_T] = r->det * powl(q, r->x.power / 2 - 1) * ds;
-    return y;
-}
-
 /* The series of f from samples of f' in `a`. False: too few samples, or no memory. */
 static bool integrate(growing *f, double a[], int N, double work[])
 {
-    iso_cosine_series(a, N, 1, work);
+    cosine_series(a, N, 1, work);
     const double most = largest_of(a, 0, N);
     if (!isfinite(most) || !(largest_of(a, N - N / 16, N) <= 1e-15 * most)) return false;
     f->modes = 0;
@@ -93,16 +79,24 @@ static void forget(revolution *r)
     }
 }
 
-/* All series from N + 1 samples. False: too few samples, or no memory. */
+/* All series from N + 1 samples of d/dxi of the clocks and of psi, which are even about xi = 0 and pi. False: too few
+ * samples, or no memory. */
 static bool make_series(revolution *r, int N, double *samples, double work[])
 {
-    real rate[SERIES];
+    const real stretch = r->f.K / ISO_PI_LONG;
     forget(r);
     r->force = 0;
     for (int j = 0; j <= N; j++) {
-        const real weight = (j % N == 0 ? 0.5L : 1) / N, y = rates_at(r, ISO_PI_LONG * j / N, rate);
+        real sn, cn, dn, rate[SERIES];
+        iso_elliptic_at(&r->f, ISO_PI_LONG * j / N, &sn, &cn, &dn);
+        const real weight = (j % N == 0 ? 0.5L : 1) / N, y = square_at(r, cn, dn), q = iso_latitude_q(&r->x, y);
+        const real ds = stretch / iso_latitude_rate(&r->x, y, dn, &rate[PSI]);
+        rate[PSI] *= stretch;
+        rate[ISO_CLOCK_S] = ds;
+        rate[ISO_CLOCK_TAU] = r->det * powl(q, r->x.power) * ds;
+        rate[ISO_CLOCK_T] = r->det * powl(q, r->x.power / 2 - 1) * ds;
         const real more = iso_latitude_Mx(&r->x, y) * iso_latitude_Mx_slope(&r->x, y, 1);
-        r->force += weight * rate[ISO_CLOCK_S] * (iso_latitude_m(&r->x, y) + more);
+        r->force += weight * ds * (iso_latitude_m(&r->x, y) + more);
         for (int i = 0; i < SERIES; i++) {
             samples[i * (N + 1) + j] = (double)rate[i];
             r->of[i].mean += weight * rate[i];
@@ -175,21 +169,9 @@ static void turn(const double by[2], double h[2])
     h[0] = x;
 }
 
-/* M and gamma from x, h = gamma_1 + i gamma_2 and their rates. gamma' = gamma x M and (M,gamma) = 0 give
- * M = gamma' x gamma. */
-static void put(const revolution *r, const swinging *at, double point[ISO_STATE])
-{
-    const double g[3] = {at->x, at->h[0], at->h[1]}, d[3] = {at->dx, at->dh[0], at->dh[1]};
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, l = (i + 2) % 3;
-        const bool out = r->plane && r->axis[i] == r->across, in = r->plane && !out;
-        point[r->axis[i]] = i == 0 ? at->Mx : in ? 0 : d[j] * g[l] - d[l] * g[j];
-        point[3 + r->axis[i]] = out ? 0 : g[i];
-    }
-}
-
-/* gamma' = gamma x M: with M_x the component across obeys h' = (-x x' - i M_x)/conj(h). In a plane on H = 0 the ball
- * turns evenly, and M = NN sqrt(J) omega takes no rates. */
+/* From x, h = gamma_1 + i gamma_2 and their rates: gamma' = gamma x M and (M,gamma) = 0 give M = gamma' x gamma, and
+ * with M_x the component across obeys h' = (-x x' - i M_x)/conj(h). In a plane on H = 0 the ball turns evenly, and
+ * M = NN sqrt(J) omega takes no rates. */
 static void state_at(const revolution *r, real along, double point[ISO_STATE])
 {
     real unused;
@@ -204,7 +186,13 @@ static void state_at(const revolution *r, real along, double point[ISO_STATE])
         at.dh[0] = (u * at.h[0] - w * at.h[1]) / rest;
         at.dh[1] = (w * at.h[0] + u * at.h[1]) / rest;
     }
-    put(r, &at, point);
+    const double g[3] = {at.x, at.h[0], at.h[1]}, d[3] = {at.dx, at.dh[0], at.dh[1]};
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, l = (i + 2) % 3;
+        const bool out = r->plane && r->axis[i] == r->across, in = r->plane && !out;
+        point[r->axis[i]] = i == 0 ? at.Mx : in ? 0 : d[j] * g[l] - d[l] * g[j];
+        point[3 + r->axis[i]] = out ? 0 : g[i];
+    }
     if (!r->even) return;
     point[r->across] = r->spin;
     iso_point_in_t_to_point(&r->params, point, point);
@@ -272,18 +260,14 @@ static void read_body(revolution *r, const iso_problem *f, const double point[IS
     r->x.Je = plane < 0 ? (J[(first + 1) % 3] + J[(first + 2) % 3]) / 2 : J[first == next ? last : next];
     r->x.eps = f->eps, r->x.H = f->energy, r->x.power = -1 / (real)f->p.k;
     r->det = J[0] * J[1] * J[2] / ((real)f->p.k * f->p.k);
-    if (!r->plane)
-        r->x.field = r->det / sqrtl(J[0] * J[1] * J[2]) * sqrtl(r->x.Ja) * iso_effects_rotor(&f->effects)[first] / 2;
-}
-
-/* In a plane on H = 0 the moving ball's energy J omega^2/2 = h is all of it: omega is a constant, and M goes like
- * NN ~ q^(-1/(2k)). Computed from there the state's omega is that constant again to rounding, for every k; computed
- * from gamma' it has the rounding errors of a power, 1/(2k) times as many. */
-static void read_spin(revolution *r, const iso_problem *f, const double point[ISO_STATE])
-{
+    /* In a plane on H = 0 the moving ball's energy J omega^2/2 = h is all of it: omega is a constant, and M goes like
+     * NN ~ q^(-1/(2k)). Computed from there the state's omega is that constant again to rounding, for every k; from
+     * gamma' it has the rounding errors of a power, 1/(2k) times as many. */
     r->params = f->p;
     r->even = r->plane && f->energy == 0;
     if (r->even) r->spin = copysign(sqrt(2 * iso_energy(&f->p, f->eps)), point[r->across] * f->p.k);
+    if (!r->plane)
+        r->x.field = r->det / sqrtl(J[0] * J[1] * J[2]) * sqrtl(r->x.Ja) * iso_effects_rotor(&f->effects)[first] / 2;
 }
 
 /* xi at the start: P = (a - y)(y - b) Q gives what sn^2 takes of y0 */
@@ -316,14 +300,13 @@ static void find_longitude(revolution *r, const real g[3], const real d[3])
 }
 
 static iso_status make(const iso_problem *f, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
-                       void **data)
+                       form_motion *m)
 {
     (void)clocks; /* all of them cost little */
     real g[3], d[3];
-    revolution *r = *data = calloc(1, sizeof *r);
+    revolution *r = m->data = calloc(1, sizeof *r);
     if (!r) return ISO_NO_MEMORY;
     read_body(r, f, point);
-    read_spin(r, f, point);
     read_state(r, point, g, d);
     iso_latitude_range(&r->x);
     r->sense = -(double)r->x.sense;
@@ -332,6 +315,8 @@ static iso_status make(const iso_problem *f, const double point[ISO_STATE], cons
     find_start(r);
     const iso_status status = find_series(r);
     if (status == ISO_OK) find_longitude(r, g, d);
+    for (int c = 0; c < ISO_CLOCKS; c++) m->rate[c] = r->of[c].mean;
+    m->unstable = x->homoclinic ? r->axis[0] : -1;
     return status;
 }
 
@@ -359,68 +344,11 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     state_at(r, p->along, p->point);
 }
 
-static int unstable(const void *data)
-{
-    const revolution *r = data;
-    return r->x.homoclinic ? r->axis[0] : -1;
-}
-
-static real mean_rate(const void *data, iso_clock clock)
-{
-    return ((const revolution *)data)->of[clock].mean;
-}
-
-/* How much both angles grow by with xi. */
-static real swing_of(const revolution *r)
-{
-    return r->x.side && !r->plane ? 1 : 0.5L;
-}
-
-static real turning_of(const revolution *r)
-{
-    return 0.5L + r->of[PSI].mean;
-}
-
-/* The first grows evenly with s; the second too, and turns the state about the axis. */
-static bool angles_of(const void *data, const double point[ISO_STATE], double angle[2])
-{
-    const revolution *r = data;
-    revolution other = *r;
-    real g[3], d[3], unused;
-    double own[ISO_STATE];
-    read_state(&other, point, g, d);
-    find_start(&other);
-    const real Mx = iso_latitude_Mx(&r->x, other.x.y0);
-    const real along = other.start - r->start + (other.half == r->half ? 0 : 2 * ISO_PI_LONG);
-    const real s = growing_at(r, ISO_CLOCK_S, along, &unused) / r->of[ISO_CLOCK_S].mean;
-    state_at(r, along, own);
-    const double *const y = own + 3;
-    const double by = atan2((double)g[2], (double)g[1]) - atan2(y[r->axis[2]], y[r->axis[1]]);
-    angle[0] = (double)(swing_of(r) * s);
-    angle[1] = r->plane ? NAN : (double)(turning_of(r) * s) + r->sense * by;
-    return fabsl(other.x.Mx - Mx) <= fabsl(other.x.Mx + Mx) && (!r->x.side || (other.x.x0 > 0) == (r->x.x0 > 0));
-}
-
-static void point_of(const void *data, const double angle[2], double point[ISO_STATE])
-{
-    const revolution *r = data;
-    const real s = angle[0] / swing_of(r);
-    const double by = r->plane ? 0 : r->sense * (double)(angle[1] - turning_of(r) * s),
-                 turned[2] = {cos(by), sin(by)};
-    form_place p = {.along = NAN};
-    find(r, ISO_CLOCK_S, s * r->of[ISO_CLOCK_S].mean, &p);
-    for (int i = 0; i < ISO_STATE; i++) point[i] = p.point[i];
-    for (int i = 0; i < ISO_STATE; i += 3) {
-        double across[2] = {p.point[i + r->axis[1]], p.point[i + r->axis[2]]};
-        turn(turned, across);
-        point[i + r->axis[1]] = across[0], point[i + r->axis[2]] = across[1];
-    }
-}
-
 static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *to)
 {
     const revolution *r = data;
-    const real swing = swing_of(r), turning = turning_of(r);
+    const real swing = r->x.side && !r->plane ? 1 : 0.5L,
+               turning = 0.5L + r->of[PSI].mean; /* of both angles, by xi */
     to->kind = r->plane ? ISO_EXACT_PLANE : ISO_EXACT_SYMMETRIC;
     to->angles = r->plane ? 1 : 2;
     to->action[0] = (double)((r->force - r->x.sense * iso_latitude_Mx(&r->x, 1) * turning) / swing);
@@ -438,12 +366,5 @@ static void release(void *data)
     free(data);
 }
 
-const iso_form iso_form_revolution = {.serves = serves,
-                                      .make = make,
-                                      .free = release,
-                                      .find = find,
-                                      .rate = mean_rate,
-                                      .unstable = unstable,
-                                      .angles = angles_of,
-                                      .point = point_of,
-                                      .describe = describe};
+const iso_form iso_form_revolution = {
+    .serves = serves, .make = make, .free = release, .find = find, .describe = describe};

@@ -40,21 +40,14 @@ typedef struct separation {
     double norm[3], gap, sign[3];     /* sqrt(product of |b_i - b_j|); of the roots between u and v; of gamma */
 } separation;
 
-/* From (M, gamma). The caller always releases it. False: too many terms would be needed. */
+/* From (M, gamma). The caller always releases both oscillations. False: too many terms would be needed. */
 bool iso_separation_make(separation *s, const iso_problem *problem, const double point[ISO_STATE]);
-void iso_separation_release(separation *s);
-
-/* The angles of u and v at a state of the same torus; false: of one turning the other way, or at an umbilic. */
-bool iso_separation_angles(const separation *s, const double point[ISO_STATE], real theta[2]);
 
 /* (M, gamma) at the angles of u and v. */
 void iso_separation_state(const separation *s, const real theta[2], double point[ISO_STATE]);
 
-/* d clock/dsigma, u and v counted from b2: ds = (v - u) dsigma, d tau = (det J/k^2) q^(-1/k) ds,
- * dt = (det J/k^2) q^(-1 - 1/(2k)) ds. */
-real iso_separation_rate(const separation *s, iso_clock clock, real u, real v);
-
-/* (1/2 pi) times the integral of |p_z dz| over one swing of z */
-real iso_separation_action(const separation *s, const oscillation *o);
+/* d clock/ds at a point with this q: tau' = (det J/k^2) q^(-1/k) and t' = (det J/k^2) q^(-1 - 1/(2k)), for k = 1 and
+ * k = -1. */
+real iso_separation_clock_rate(const separation *s, iso_clock clock, real q);
 
 #endif

@@ -2,14 +2,17 @@
 #ifndef ISO_EXACT_SERIES_IMPL_H
 #define ISO_EXACT_SERIES_IMPL_H
 
+#include <gsl/gsl_fft_real.h>
 #include <math.h>
-#include <stddef.h>
-
-#include "exact/elliptic_impl.h"
 
 /* From f(pi j/N), j = 0 ... N, to the a_n of f(x) = sum_n a_n cos n x, n = 0 ... N, N a power of 2; both at
  * x[j stride]. `work` has room for 2 N numbers. */
-void iso_cosine_series(double x[], int N, int stride, double work[]);
+static inline void cosine_series(double x[], int N, int stride, double work[])
+{
+    for (int j = 0; j <= N; j++) work[j] = work[(2 * N - j) % (2 * N)] = x[j * stride];
+    gsl_fft_real_radix2_transform(work, 1, 2 * (size_t)N);
+    for (int n = 0; n <= N; n++) x[n * stride] = work[n] / (n % N == 0 ? 2 * N : N);
+}
 
 /* The largest size of a[from] ... a[to]; NaN if one of them is NaN */
 static inline double largest_of(const double a[], int from, int to)

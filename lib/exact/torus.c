@@ -2,7 +2,7 @@
  *
  *  (1) The angles grow evenly: theta_u = start_u + omega_u sigma, theta_v = start_v + omega_v sigma. The state is a
  *      function of the two angles.
- *  (2) The rate d clock/dsigma is a function of u and v (iso_separation_rate), so it is even in each angle:
+ *  (2) The rate d clock/dsigma is a function of u and v (rate_of), so it is even in each angle:
  *          d clock/dsigma = sum_mn d_mn cos m theta_u cos n theta_v.
  *      Its coefficients d_mn come from samples on a grid of both angles (two cosine transforms). They fall like a
  *      geometric series, because the rate is a smooth periodic function.
@@ -39,6 +39,14 @@ typedef struct torus {
     int rows, columns; /* how many multiples of theta_u and of theta_v are needed at most */
     torus_clock clock[ISO_CLOCKS];
 } torus;
+
+/* d clock/dsigma, u and v counted from b2: ds = (v - u) dsigma. */
+static real rate_of(const separation *s, iso_clock clock, real u, real v)
+{
+    const real *b = s->b, far = s->off[0] + s->off[2] - u - v;
+    const real q = s->k == -1 ? b[1] + far : (b[1] + u) * (b[1] + v) / (b[0] * b[1] * b[2]);
+    return (v - u) * iso_separation_clock_rate(s, clock, q);
+}
 
 /* --- set-up ----------------------------------------------------------------------------------------------------- */
 
@@ -102,7 +110,7 @@ static bool integrate(const separation *s, torus_clock *c, const double d[], int
 
 /* enough[0]: whether the last eighth of the terms in m is as small as the rounding errors of a rate of size `most`;
  * enough[1]: the same in n. If not, the grid of (2) is too coarse. */
-static void find_tails(const double d[], int M, int N, double most, bool enough[2])
+static void check_resolution(const double d[], int M, int N, double most, bool enough[2])
 {
     enough[0] = enough[1] = true;
     for (int m = 0; m <= M; m++)
@@ -125,15 +133,15 @@ static iso_status make_clock(const separation *s, iso_clock clock, torus_clock *
     real mean = 0, most = 0;
     for (int j = 0; room && j <= M; j++)
         for (int l = 0; l <= N; l++) {
-            const real r = iso_separation_rate(s, clock, u->at[j], v->at[l]);
+            const real r = rate_of(s, clock, u->at[j], v->at[l]);
             mean += r * (j % M == 0 ? 0.5L : 1) * (l % N == 0 ? 0.5L : 1);
             most = fmaxl(most, r);
             d[j * columns + l] = (double)r;
         }
     c->mean = mean / M / N;
-    for (int j = 0; room && j <= M; j++) iso_cosine_series(d + j * columns, N, 1, work);
-    for (int l = 0; room && l <= N; l++) iso_cosine_series(d + l, M, columns, work);
-    if (room) find_tails(d, M, N, (double)most, enough);
+    for (int j = 0; room && j <= M; j++) cosine_series(d + j * columns, N, 1, work);
+    for (int l = 0; room && l <= N; l++) cosine_series(d + l, M, columns, work);
+    if (room) check_resolution(d, M, N, (double)most, enough);
     if (room && enough[0] && enough[1]) room = integrate(s, c, d, M, N);
     free(d);
     free(work);
@@ -183,11 +191,6 @@ static bool open_angles(const torus *x, angles *a)
     a->of_sine = a->cosine[1] + columns;
     a->of_cosine = a->of_sine + columns;
     return true;
-}
-
-static void close_angles(angles *a)
-{
-    free(a->heap);
 }
 
 /* The angles at sigma, (1), and the sines and cosines of their multiples below `most`. */
@@ -250,7 +253,7 @@ static real rate_at(const torus *x, iso_clock clock, const local *l, real step)
 {
     real z[2];
     for (int i = 0; i < 2; i++) z[i] = l->z[i] + step * (l->rate[i] + step / 2 * l->bend[i]);
-    return iso_separation_rate(&x->s, clock, z[0], z[1]);
+    return rate_of(&x->s, clock, z[0], z[1]);
 }
 
 /* The mean rate of a clock over a short step, by Simpson's rule; *error: how wrong it may be, relatively. The rule is
@@ -331,7 +334,7 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     for (int k = 0; k < ISO_CLOCKS; k++)
         p->clock[k] = k == (int)clock ? time : x->clock[k].mean > 0 ? clock_at(&x->clock[k], ALL, ALL, &a) : NAN;
     iso_separation_state(&x->s, theta, p->point);
-    close_angles(&a);
+    free(a.heap);
 }
 
 /* --- the form --------------------------------------------------------------------------------------------------- */
@@ -351,14 +354,14 @@ static void release(void *data)
         free(x->clock[c].at_sine);
         free(x->clock[c].at_cosine);
     }
-    iso_separation_release(&x->s);
+    for (int i = 0; i < 2; i++) iso_oscillation_release(&x->s.coordinate[i]);
     free(x);
 }
 
 static iso_status make(const iso_problem *problem, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
-                       void **data)
+                       form_motion *m)
 {
-    torus *x = *data = calloc(1, sizeof *x);
+    torus *x = m->data = calloc(1, sizeof *x);
     iso_status status = ISO_OK;
     angles a;
     if (!x) return ISO_NO_MEMORY;
@@ -374,69 +377,47 @@ static iso_status make(const iso_problem *problem, const double point[ISO_STATE]
     if (x->s.coordinate[1].terms >= x->columns) x->columns = x->s.coordinate[1].terms + 1;
     if (status != ISO_OK || !open_angles(x, &a)) return status != ISO_OK ? status : ISO_NO_MEMORY;
     set_angles(x, 0, ALL, &a);
-    for (int c = 0; c < ISO_CLOCKS; c++)
+    for (int c = 0; c < ISO_CLOCKS; c++) {
         if (clocks[c]) x->clock[c].zero = (double)(clock_at(&x->clock[c], ALL, ALL, &a) - x->s.before[c]);
-    close_angles(&a);
+        m->rate[c] = x->clock[c].mean;
+    }
+    m->unstable = x->s.unstable;
+    free(a.heap);
     return status;
 }
 
-static int unstable(const void *data)
+/* (1/2 pi) times the integral of |p_z dz| over one swing. p_z = (dz/dsigma)/(4 A), so
+ * p_z dz = (dz/dsigma)^2/(4 A) dsigma = 2 (R + c) dsigma = 2 (R + c) dtheta/omega: the mean of 2 (R + c) over even
+ * samples of theta, over omega. */
+static real action(const separation *s, const oscillation *o)
 {
-    return ((const torus *)data)->s.unstable;
-}
-
-static real mean_rate(const void *data, iso_clock clock)
-{
-    return ((const torus *)data)->clock[clock].mean;
-}
-
-/* After how many swings of a coordinate the state returns. It is two, because gamma goes like sn and cn, which change
- * sign after one swing. It is one for v where neither gamma3 (be < b3) nor gamma2 (v librates) goes like sn_v or
- * cn_v. */
-static int swings_of(const separation *s, int coordinate)
-{
-    return coordinate == 1 && s->below_b3 && !s->librates_low ? 1 : 2;
-}
-
-static bool angles_of(const void *data, const double point[ISO_STATE], double angle[2])
-{
-    const separation *s = &((const torus *)data)->s;
-    real theta[2];
-    const bool found = iso_separation_angles(s, point, theta);
-    for (int i = 0; i < 2; i++) angle[i] = (double)theta[i] / swings_of(s, i);
-    return found;
-}
-
-static void point_of(const void *data, const double angle[2], double point[ISO_STATE])
-{
-    const separation *s = &((const torus *)data)->s;
-    real theta[2];
-    for (int i = 0; i < 2; i++) theta[i] = remainderl((real)angle[i] * swings_of(s, i), 4 * ISO_PI_LONG);
-    iso_separation_state(s, theta, point);
+    real mean = 0;
+    for (int j = 0; j <= o->samples; j++) {
+        const real z = o->at[j], from_al = z + s->to_al[1];
+        const real excess = s->k == -1 ? s->eps * from_al * (s->to_be[1] - z) : s->c * from_al / (s->b[1] + z);
+        mean += 2 * fabsl(excess) * (j % o->samples == 0 ? 0.5L : 1) / o->samples;
+    }
+    return mean / o->omega;
 }
 
 static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *to)
 {
     const torus *x = data;
+    const separation *s = &x->s;
     to->kind = ISO_EXACT_SEPARATED;
     to->angles = 2;
-    to->c = (double)x->s.c;
-    to->distance = (double)x->s.distance;
+    to->c = (double)s->c;
+    to->distance = (double)s->distance;
     for (int i = 0; i < 2; i++) {
-        const oscillation *o = &x->s.coordinate[i];
-        const int swings = swings_of(&x->s, i);
-        to->action[i] = (double)(iso_separation_action(&x->s, o) * swings);
+        /* The state returns after two swings of a coordinate, because gamma goes like sn and cn, which change sign
+         * after one. It returns after one of v where neither gamma3 (be < b3) nor gamma2 (v librates) goes like sn_v
+         * or cn_v. */
+        const int swings = i == 1 && s->below_b3 && !s->librates_low ? 1 : 2;
+        to->action[i] = (double)(action(s, &s->coordinate[i]) * swings);
         for (int c = 0; c < ISO_CLOCKS; c++)
-            to->frequency[c][i] = clocks[c] ? (double)(o->omega / x->clock[c].mean / swings) : NAN;
+            to->frequency[c][i] = clocks[c] ? (double)(s->coordinate[i].omega / x->clock[c].mean / swings) : NAN;
     }
 }
 
-const iso_form iso_form_separated = {.serves = serves,
-                                     .make = make,
-                                     .free = release,
-                                     .find = find,
-                                     .rate = mean_rate,
-                                     .unstable = unstable,
-                                     .angles = angles_of,
-                                     .point = point_of,
-                                     .describe = describe};
+const iso_form iso_form_separated = {
+    .serves = serves, .make = make, .free = release, .find = find, .describe = describe};

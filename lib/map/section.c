@@ -31,18 +31,10 @@ bool iso_section_is_rotation(const double y[ISO_STATE], int axis)
     return fmax(fabs(y[3 + axis]), swing) <= 1e-14;
 }
 
-/* The components b and c, which take the places of 1 and 2 in the equations for a = 3. */
-static void sides(int axis, int *b, int *c)
-{
-    *b = (axis + 1) % 3;
-    *c = (axis + 2) % 3;
-}
-
 /* q on the section, and dq/dl */
 static double section_q(const iso_params *p, int axis, double l, double *slope)
 {
-    int b, c;
-    sides(axis, &b, &c);
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3; /* in place of 1 and 2 in the equations for a = 3 */
     const double C = cos(l), S = sin(l);
     *slope = 2 * (p->J[c] - p->J[b]) * S * C;
     return p->J[b] * C * C + p->J[c] * S * S;
@@ -67,8 +59,7 @@ bool iso_section_is_open(iso_point_motion m, int axis, double l)
 
 void iso_section_point(iso_point_motion m, int axis, double l, double x, double point[ISO_STATE])
 {
-    int b, c;
-    sides(axis, &b, &c);
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     const double G = iso_section_momentum(m, axis, l), across = G * sqrt((1 - x) * (1 + x));
     double *M = point, *gamma = point + 3;
     M[b] = across * sin(l);
@@ -81,8 +72,7 @@ void iso_section_point(iso_point_motion m, int axis, double l, double x, double 
 
 void iso_section_chart(int axis, const double point[ISO_STATE], double *l, double *x)
 {
-    int b, c;
-    sides(axis, &b, &c);
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     *l = atan2(0 - point[3 + c], point[3 + b]); /* 0 - 0 is +0, so l is never -pi */
     const double size = largest(point);         /* the square of M need not fit a double */
     const double M[3] = {point[0] / size, point[1] / size, point[2] / size};
@@ -105,8 +95,7 @@ unsigned iso_section_reversors(const iso_problem *f, int axis)
 void iso_section_deviations(iso_point_motion m, int axis, double l, double x, double by_l[ISO_STATE],
                             double by_x[ISO_STATE])
 {
-    int b, c;
-    sides(axis, &b, &c);
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     double turn, point[ISO_STATE];
     iso_section_point(m, axis, l, x, point);
     const double q = section_q(m.p, axis, l, &turn), G = iso_section_momentum(m, axis, l);
@@ -126,8 +115,7 @@ void iso_section_deviations(iso_point_motion m, int axis, double l, double x, do
 void iso_section_slope(int axis, const double point[ISO_STATE], const double rate[ISO_STATE],
                        const double deviation[ISO_STATE], double slope[2])
 {
-    int b, c;
-    sides(axis, &b, &c);
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     double d[ISO_STATE];
     const double ahead = deviation[3 + axis] / rate[3 + axis];
     for (int i = 0; i < ISO_STATE; i++) d[i] = deviation[i] - ahead * rate[i];

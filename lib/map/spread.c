@@ -48,10 +48,7 @@ static double angle_at(const iso_section_spread *s, double part)
     int low = 0, high = ISO_SPREAD_STEPS;
     while (high - low > 1) {
         const int middle = (low + high) / 2;
-        if (s->part[middle] <= wanted)
-            low = middle;
-        else
-            high = middle;
+        *(s->part[middle] <= wanted ? &low : &high) = middle;
     }
     double left = FIRST + STEP * low, right = left + STEP, u = left, sum = s->part[low];
     double next = left + STEP * (wanted - s->part[low]) / (s->part[high] - s->part[low]);
@@ -59,10 +56,7 @@ static double angle_at(const iso_section_spread *s, double part)
         sum = integrate(s, u, next - u, sum);
         u = next;
         const double error = sum - wanted;
-        if (error > 0)
-            right = u;
-        else
-            left = u;
+        *(error > 0 ? &right : &left) = u;
         next = u - error / density(s, u);
         if (!(next >= left && next <= right)) next = (left + right) / 2;
     }

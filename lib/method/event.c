@@ -49,19 +49,9 @@ static double g_moved(search *s, const double y[], const double f[], double time
     return g_of(s, moved);
 }
 
-/* g a moment after dt, on the orbit. (On the tangent, `straight`, a g that only touches 0 on the orbit passes it.) */
-static double g_beyond(search *s, double dt, double straight)
-{
-    iso_integrator *it = s->it;
-    const double later = dt + it->direction * s->nearby;
-    double y[ISO_MAX_STATE];
-    if (fabs(later) > fabs(it->h)) return straight;
-    if (s->status == ISO_OK) s->status = iso_integrator_within(it, later, y);
-    return s->status == ISO_OK ? g_of(s, y) : 0;
-}
-
-/* g and its slope at dt. Where g is exactly 0, its value just beyond is taken, so that every zero lies inside one
- * part. */
+/* g and its slope at dt. Where g is exactly 0, its value a moment later is taken, so that every zero lies inside one
+ * part: on the orbit, as a g that only touches 0 there passes it on the tangent; behind the step's end on the
+ * tangent. */
 static place look(search *s, double dt)
 {
     iso_integrator *it = s->it;
@@ -74,7 +64,14 @@ static place look(search *s, double dt)
     const double before = g_moved(s, y, f, -s->nearby), after = g_moved(s, y, f, s->nearby);
     p.g = g_of(s, y);
     p.slope = after - before;
-    if (p.g == 0) p.g = g_beyond(s, dt, it->direction > 0 ? after : before);
+    if (p.g != 0) return p;
+    const double later = dt + it->direction * s->nearby;
+    if (fabs(later) > fabs(it->h)) {
+        p.g = it->direction > 0 ? after : before;
+    } else {
+        if (s->status == ISO_OK) s->status = iso_integrator_within(it, later, y);
+        p.g = s->status == ISO_OK ? g_of(s, y) : 0;
+    }
     return p;
 }
 

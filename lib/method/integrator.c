@@ -57,7 +57,7 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     it->options = o;
     const bool room = iso_inside_create(&it->model.problem, &it->inside);
     iso_status status = room ? method->create(it) : iso_context_no_memory(ctx, "an integrator");
-    if (status == ISO_OK && !method->dense) status = iso_dense_create(it);
+    if (status == ISO_OK && !it->method->dense) status = iso_dense_create(it);
     if (status != ISO_OK) return iso_integrator_free(it), status;
     *integrator = it;
     return ISO_OK;
@@ -110,25 +110,20 @@ static void rest(iso_integrator *it, double dt, double y[])
     iso_model_rest(&it->model, dt, y);
 }
 
-/* Series look inside their steps themselves. The others see an effect that the scene writes at their stages alone.
- * Steps of fixed length, as splittings have, stay as they are. */
-static void find_longest(iso_integrator *it, const double y[])
-{
-    const bool any = !it->inside || it->method->own_equations || it->options.fixed_step > 0;
-    it->longest =
-        any ? INFINITY : iso_inside_longest(it->inside, &it->model, it->direction, y, it->options.tolerance / 10);
-}
-
 static iso_status take_step(iso_integrator *it, double y[], double *h)
 {
     it->resting = it->direction > 0 && iso_model_at_rest(&it->model, y);
-    if (!it->resting) {
-        find_longest(it, y);
-        return it->method->step(it, y, h);
+    if (it->resting) {
+        *h = fmax(1e18, 1e3 * it->left.head); /* longer than any time that is asked, as a rule */
+        rest(it, *h, y);
+        return ISO_OK;
     }
-    *h = fmax(1e18, 1e3 * it->left.head); /* longer than any time that is asked, as a rule */
-    rest(it, *h, y);
-    return ISO_OK;
+    /* Series look inside their steps themselves. The others see an effect that the scene writes at their stages alone.
+     * Steps of fixed length, as splittings have, stay as they are. */
+    const bool any = !it->inside || it->method->own_equations || it->options.fixed_step > 0;
+    it->longest =
+        any ? INFINITY : iso_inside_longest(it->inside, &it->model, it->direction, y, it->options.tolerance / 10);
+    return it->method->step(it, y, h);
 }
 
 /* Why no further step makes sense after one that led to y and was moved so far by projection; NULL: it does. */
@@ -201,20 +196,15 @@ static iso_status take_next_step(iso_integrator *it)
     return ISO_OK;
 }
 
-/* Brings the method to the current step, from the start. */
-static iso_status fetch_method(iso_integrator *it)
-{
-    const long number = it->number;
-    iso_status status = set_out(it, it->direction);
-    while (status == ISO_OK && it->number < number) status = take_next_step(it);
-    return status;
-}
-
 iso_status iso_integrator_advance(iso_integrator *it)
 {
     if (iso_past_next(it)) return ISO_OK;
-    const bool there = it->method_number == it->number && it->method_direction == it->direction;
-    const iso_status status = there ? ISO_OK : fetch_method(it);
+    const long number = it->number;
+    iso_status status = ISO_OK;
+    if (it->method_number != number || it->method_direction != it->direction) { /* bring it there from the start */
+        status = set_out(it, it->direction);
+        while (status == ISO_OK && it->number < number) status = take_next_step(it);
+    }
     return status == ISO_OK ? take_next_step(it) : status;
 }
 
@@ -244,19 +234,15 @@ static double since_end(const iso_integrator *it, double t)
     return iso_instant_since(iso_instant_later(it->left, it->h), t);
 }
 
-/* Whether t lies in the current step, or is to be reached by new steps. */
-static bool is_ahead(iso_integrator *it, int direction, double t)
-{
-    if (direction != it->direction || direction * iso_integrator_since(it, t) < 0) return false;
-    return it->number == iso_past_of(it, direction)->steps || direction * since_end(it, t) <= 0;
-}
-
 iso_status iso_integrator_reach(iso_integrator *it, int direction, double t)
 {
     iso_status status = ISO_OK;
     if (it->method->at) return jump(it, direction, t);
     it->called = true;
-    if (!is_ahead(it, direction, t) && !iso_past_recall(it, direction, t)) status = set_out(it, direction);
+    const bool newest = it->number == iso_past_of(it, direction)->steps; /* beyond it only new steps lead */
+    const bool ahead = direction == it->direction && !(direction * iso_integrator_since(it, t) < 0) &&
+                       (newest || direction * since_end(it, t) <= 0);
+    if (!ahead && !iso_past_recall(it, direction, t)) status = set_out(it, direction);
     while (status == ISO_OK && it->direction * since_end(it, t) > 0) status = iso_integrator_advance(it);
     return status;
 }

@@ -49,11 +49,6 @@ double iso_integrator_first_step(iso_integrator *it, int order)
     return it->direction * (rate > 0 && isfinite(rate) ? h / rate : 1);
 }
 
-double iso_integrator_since(const iso_integrator *it, double t)
-{
-    return iso_instant_since(it->left, t);
-}
-
 void iso_integrator_last(const iso_integrator *it, double *t, double y[])
 {
     *t = iso_instant_later(it->left, it->h).head;

@@ -13,7 +13,7 @@
 #include "method/methods_impl.h"
 #include "model/model_impl.h"
 
-typedef struct iso_dense iso_dense;
+typedef struct iso_gsl iso_gsl;
 
 /* A time as an unevaluated sum of two doubles. */
 typedef struct iso_instant {
@@ -71,7 +71,7 @@ struct iso_integrator {
     iso_inside *inside; /* expressions that the scene writes; NULL: none act                        */
     double longest;     /* of the next step, for methods that choose their steps; infinite: any     */
     void *data;         /* the method's own                                                           */
-    iso_dense *dense;   /* reaches times within a step; NULL where the method does                    */
+    iso_gsl *dense;     /* reaches times within a step; NULL where the method does                    */
 };
 
 /* The contract of iso_method.step: y holds the state at the end of the last step, after `start` that at time 0.
@@ -106,7 +106,10 @@ iso_status iso_integrator_advance(iso_integrator *it);
 iso_status iso_integrator_reach(iso_integrator *it, int direction, double t);
 
 /* t minus the time of the step's left end: exact but for the last bit. */
-double iso_integrator_since(const iso_integrator *it, double t);
+static inline double iso_integrator_since(const iso_integrator *it, double t)
+{
+    return iso_instant_since(it->left, t);
+}
 
 /* The state at dt from the step's left end: an end of the step, or dense output. */
 iso_status iso_integrator_within(iso_integrator *it, double dt, double y[]);
@@ -127,9 +130,9 @@ bool iso_past_recall(iso_integrator *it, int direction, double t);
 /* past.c: goes to the next step without the method, where it is kept. */
 bool iso_past_next(iso_integrator *it);
 
-/* dense.c: from at_left by dt, |dt| <= |h|, at the integrator's tolerance. Created into it->dense. */
+/* gsl.c: from at_left by dt, |dt| <= |h|, at the integrator's tolerance. Created into it->dense. */
 iso_status iso_dense_create(iso_integrator *it);
-void iso_dense_free(iso_dense *dense);
+void iso_dense_free(iso_gsl *dense);
 iso_status iso_dense_at(iso_integrator *it, double dt, double y[]);
 
 /* Errors: ISO_NO_MEMORY; ISO_BAD_ARGUMENT:

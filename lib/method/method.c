@@ -17,34 +17,19 @@ const iso_method *const iso_methods[] = {
         NULL,
 };
 
-/* The number of characters of `name` behind the pattern; -1: the name does not begin with the pattern. */
-static int left_over(const char *pattern, const char *name)
-{
-    for (; *pattern; pattern++, name++) {
-        const int c = *pattern == '-' ? '_' : tolower((unsigned char)*pattern);
-        if (c != *name) return -1;
-    }
-    return (int)strlen(name);
-}
-
-/* The pattern without the family's name in front of it, if that is there. */
-static const char *without_family(const char *pattern, const char *family)
-{
-    const size_t length = strlen(family);
-    for (size_t i = 0; i < length; i++)
-        if (tolower((unsigned char)pattern[i]) != family[i]) return pattern;
-    return pattern[length] == '-' || pattern[length] == '_' ? pattern + length + 1 : pattern;
-}
-
 const iso_method *iso_method_find(const char *name)
 {
+    char plain[64] = ""; /* in lower case, with '_' for '-'; a longer name is none */
     const iso_method *candidate = NULL;
     int candidates = 0;
+    for (size_t i = 0; name[i] && i < sizeof plain - 1; i++)
+        plain[i] = name[i] == '-' ? '_' : (char)tolower((unsigned char)name[i]);
     for (int i = 0; iso_methods[i]; i++) {
-        const char *pattern = without_family(name, iso_methods[i]->family);
-        const int rest = *pattern ? left_over(pattern, iso_methods[i]->name) : -1;
-        if (rest == 0) return iso_methods[i];
-        if (rest > 0) candidate = iso_methods[i], candidates++;
+        const char *family = iso_methods[i]->family, *own = iso_methods[i]->name, *pattern = plain;
+        const size_t length = strlen(family);
+        if (strncmp(pattern, family, length) == 0 && pattern[length] == '_') pattern += length + 1;
+        if (strcmp(pattern, own) == 0) return iso_methods[i];
+        if (*pattern && strncmp(pattern, own, strlen(pattern)) == 0) candidate = iso_methods[i], candidates++;
     }
     return candidates == 1 ? candidate : NULL;
 }
@@ -76,37 +61,25 @@ const iso_method *iso_method_auto(const iso_model *model)
     return best;
 }
 
-static int digits_of(const iso_method *method)
-{
-    return method->digits > 0 ? method->digits : ISO_DOUBLE_DIGITS;
-}
-
 const iso_method *iso_method_with_more_digits(int digits)
 {
     const iso_method *next = NULL;
     for (int i = 0; iso_methods[i]; i++) {
-        const int here = digits_of(iso_methods[i]);
-        if (here > digits && (!next || here < digits_of(next))) next = iso_methods[i];
-    }
-    return next;
-}
-
-/* The one with the least place above this one. */
-static const iso_method *next_witness(int above)
-{
-    const iso_method *next = NULL;
-    for (int i = 0; iso_methods[i]; i++) {
-        const int here = iso_methods[i]->witness;
-        if (here > above && (!next || here < next->witness)) next = iso_methods[i];
+        const int here = iso_methods[i]->digits; /* 0, that of doubles, is never more */
+        if (here > digits && (!next || here < next->digits)) next = iso_methods[i];
     }
     return next;
 }
 
 const iso_method *iso_method_witness(int place)
 {
-    const iso_method *found = NULL;
-    for (int i = 0; i < place && (i == 0 || found); i++) found = next_witness(found ? found->witness : 0);
-    return found;
+    for (int i = 0; iso_methods[i]; i++) {
+        const int own = iso_methods[i]->witness;
+        int before = 0;
+        for (int j = 0; iso_methods[j]; j++) before += iso_methods[j]->witness > 0 && iso_methods[j]->witness < own;
+        if (own > 0 && before + 1 == place) return iso_methods[i];
+    }
+    return NULL;
 }
 
 const iso_method *iso_method_of_other_kind(const iso_model *model)
@@ -116,64 +89,32 @@ const iso_method *iso_method_of_other_kind(const iso_model *model)
                : NULL;
 }
 
-/* --- whether a method can simulate a model ---------------------------------------------------------------------- */
-
-/* --- one check for each need --------------------------------------------------------------------------------- */
-
-static bool has_system(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
-{
-    if (!method->system || method->system == model->system) return true;
-    snprintf(why, ISO_WHY_SIZE, "is for the %s%s%s", method->system->name, method->system_why ? ": " : "",
-             method->system_why ? method->system_why : "");
-    return false;
-}
-
-/* Jacobians and series are made of the effects' formulas. */
-static bool has_formulas(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
-{
-    const char *needs = method->implicit ? "solves with slopes" : "expands the equations in series";
-    if (!method->implicit && !method->own_equations) return true;
-    const iso_effect *lacking = model->without_formula;
-    if (!iso_system_has_recurrences(model->system))
-        snprintf(why, ISO_WHY_SIZE, "%s, and there are no recurrences of the %s to make them from", needs,
-                 model->system->name);
-    else if (lacking)
-        snprintf(why, ISO_WHY_SIZE, "%s, and the equations of '%s' are no formula to make them from", needs,
-                 lacking->name);
-    return iso_system_has_recurrences(model->system) && !lacking;
-}
-
-static bool has_room(const iso_model *model, char why[ISO_WHY_SIZE])
-{
-    const char *too_large = iso_model_too_large(model);
-    if (too_large) snprintf(why, ISO_WHY_SIZE, "cannot be used: %s", too_large);
-    return !too_large;
-}
-
-static bool splits_well(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
-{
-    if (!method->splits || !model->problem.energy_formula.magnetic) return true;
-    snprintf(why, ISO_WHY_SIZE, "splits into flows of M^2/2 and of a potential, and '%s' is a magnetic field",
-             iso_effects_magnetic(&model->problem)->name);
-    return false;
-}
-
-/* Steps of one length in s suit no potential that spans many decades. For k = -1 it is a quadratic form, and spans
- * none. */
-static bool has_even_steps(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
-{
-    const iso_params *p = &model->problem.p;
-    if (!method->steps_in_s || !iso_params_steep(p) || p->k == -1) return true;
-    snprintf(
-        why, ISO_WHY_SIZE,
-        "has steps that are fixed in s, and for this k one radian of the way may take 1e10 times as long as another");
-    return false;
-}
-
-/* --- all of them --------------------------------------------------------------------------------------------- */
-
 bool iso_method_serves(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
 {
-    return has_system(method, model, why) && has_room(model, why) && has_formulas(method, model, why) &&
-           splits_well(method, model, why) && has_even_steps(method, model, why);
+    const iso_problem *f = &model->problem;
+    const bool from_formulas = method->implicit || method->own_equations; /* Jacobians and series are made of these */
+    const char *needs = method->implicit ? "solves with slopes" : "expands the equations in series";
+    const char *too_large = iso_model_too_large(model);
+    if (method->system && method->system != model->system)
+        snprintf(why, ISO_WHY_SIZE, "is for the %s%s%s", method->system->name, method->system_why ? ": " : "",
+                 method->system_why ? method->system_why : "");
+    else if (too_large)
+        snprintf(why, ISO_WHY_SIZE, "cannot be used: %s", too_large);
+    else if (from_formulas && !iso_system_has_recurrences(model->system))
+        snprintf(why, ISO_WHY_SIZE, "%s, and there are no recurrences of the %s to make them from", needs,
+                 model->system->name);
+    else if (from_formulas && model->without_formula)
+        snprintf(why, ISO_WHY_SIZE, "%s, and the equations of '%s' are no formula to make them from", needs,
+                 model->without_formula->name);
+    else if (method->splits && f->energy_formula.magnetic)
+        snprintf(why, ISO_WHY_SIZE, "splits into flows of M^2/2 and of a potential, and '%s' is a magnetic field",
+                 iso_effects_magnetic(f)->name);
+    else if (method->steps_in_s && iso_params_steep(&f->p) && f->p.k != -1)
+        /* the potential spans many decades; for k = -1 it is a quadratic form, and spans none */
+        snprintf(why, ISO_WHY_SIZE,
+                 "has steps that are fixed in s, and for this k one radian of the way may take 1e10 times as long as "
+                 "another");
+    else
+        return true;
+    return false;
 }

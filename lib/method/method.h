@@ -81,7 +81,7 @@ typedef struct iso_method {
     iso_status (*create)(iso_integrator *it);
     iso_status (*start)(iso_integrator *it);
     iso_status (*step)(iso_integrator *it, double y[], double *h);
-    /* The state at dt from the step's left end, |dt| < |h|, by the method itself; NULL: by dense.c. */
+    /* The state at dt from the step's left end, |dt| < |h|, by the method itself; NULL: by gsl.c. */
     iso_status (*dense)(iso_integrator *it, double dt, double y[]);
     /* The state at any time t but 0, without steps; NULL: by steps. With it iso_integrator_start calls `start` once,
      * and only a search for events calls `step`. */

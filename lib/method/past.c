@@ -6,7 +6,7 @@
  *   it for fresh pages of memory. Where places fill the memory allowed, every second one is dropped. Then up to 8,
  *   16, ... steps are taken again.
  * - Of other methods, which carry a history of their own, every step's end is kept. Times between two places are
- *   found from the first (dense.c), with the same bits, and the method itself stays where it is. Where places fill
+ *   found from the first (gsl.c), with the same bits, and the method itself stays where it is. Where places fill
  *   the memory, the older half is dropped. Times before it are found from the start again.
  * A method that finds times within a step from its history (bdf) keeps nothing.
  */

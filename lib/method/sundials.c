@@ -42,16 +42,41 @@ static iso_status stopped(iso_integrator *it, char *flag_name)
     return status;
 }
 
-/* --- CVODE ------------------------------------------------------------------------------------------------------ */
-
-typedef struct cvode {
-    void *memory;
+typedef struct solver {
+    void *memory; /* of CVODE or ARKODE */
+    void (*free)(void **memory);
     N_Vector y;
     N_Vector between;            /* BDF: the state at a time within a step */
     SUNMatrix matrix;            /* BDF   */
     SUNLinearSolver linear;      /* BDF   */
     SUNNonlinearSolver iterator; /* Adams */
-} cvode;
+} solver;
+
+/* With y alone, for the code that frees its memory by `code_free`. NULL: no memory. */
+static solver *create_solver(iso_integrator *it, SUNContext sun, void (*code_free)(void **memory))
+{
+    solver *s = it->data = calloc(1, sizeof *s);
+    if (!sun || !s) return NULL;
+    s->free = code_free;
+    s->y = N_VNew_Serial(it->model.dim, sun);
+    if (!s->y) return NULL;
+    N_VConst(1, s->y);
+    return s;
+}
+
+static void release(iso_integrator *it)
+{
+    solver *s = it->data;
+    if (s->memory) s->free(&s->memory);
+    if (s->iterator) SUNNonlinSolFree(s->iterator);
+    if (s->linear) SUNLinSolFree(s->linear);
+    if (s->matrix) SUNMatDestroy(s->matrix);
+    if (s->between) N_VDestroy(s->between);
+    if (s->y) N_VDestroy(s->y);
+    free(s);
+}
+
+/* --- CVODE ------------------------------------------------------------------------------------------------------ */
 
 static int jacobian(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *integrator, N_Vector a, N_Vector b,
                     N_Vector c)
@@ -80,26 +105,7 @@ static int projection(sunrealtype t, N_Vector y, N_Vector correction, sunrealtyp
     return 0;
 }
 
-static void cvode_release(iso_integrator *it)
-{
-    cvode *c = it->data;
-    if (!c) return;
-    if (c->memory) CVodeFree(&c->memory);
-    if (c->iterator) SUNNonlinSolFree(c->iterator);
-    if (c->linear) SUNLinSolFree(c->linear);
-    if (c->matrix) SUNMatDestroy(c->matrix);
-    if (c->between) N_VDestroy(c->between);
-    if (c->y) N_VDestroy(c->y);
-    free(c);
-}
-
-static int set_up_adams(cvode *c, SUNContext sun)
-{
-    c->iterator = SUNNonlinSol_FixedPoint(c->y, 0, sun);
-    return c->iterator ? CVodeSetNonlinearSolver(c->memory, c->iterator) : -1;
-}
-
-static int set_up_bdf(const iso_integrator *it, cvode *c, SUNContext sun)
+static int set_up_bdf(const iso_integrator *it, solver *c, SUNContext sun)
 {
     c->between = N_VClone(c->y);
     if (!c->between) return -1;
@@ -117,37 +123,36 @@ static int set_up_bdf(const iso_integrator *it, cvode *c, SUNContext sun)
 static iso_status cvode_create(iso_integrator *it)
 {
     const SUNContext sun = iso_context_sundials(it->ctx);
-    cvode *c = it->data = calloc(1, sizeof *c);
-    if (sun && c) c->y = N_VNew_Serial(it->model.dim, sun);
-    if (c && c->y) c->memory = CVodeCreate(it->method->variant, sun);
+    solver *c = create_solver(it, sun, CVodeFree);
+    if (c) c->memory = CVodeCreate(it->method->variant, sun);
     if (!c || !c->memory) return iso_context_no_memory(it->ctx, "CVODE");
     ISO_SUN_QUIET(CVodeSetErrHandlerFn, c->memory);
-    N_VConst(1, c->y);
     int failed = CVodeInit(c->memory, rhs, 0, c->y);
     if (!failed) failed = CVodeSetUserData(c->memory, it);
     if (!failed) failed = CVodeWFtolerances(c->memory, weights);
-    if (!failed) failed = it->method->implicit ? set_up_bdf(it, c, sun) : set_up_adams(c, sun);
+    if (!failed && it->method->implicit) failed = set_up_bdf(it, c, sun);
+    if (!failed && !it->method->implicit) {
+        c->iterator = SUNNonlinSol_FixedPoint(c->y, 0, sun);
+        failed = c->iterator ? CVodeSetNonlinearSolver(c->memory, c->iterator) : -1;
+    }
     return failed ? iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "CVODE cannot be set up (%d)", failed) : ISO_OK;
 }
 
-#define SHORT 1e-12
-
 static iso_status cvode_start(iso_integrator *it)
 {
-    cvode *c = it->data;
-    if (!iso_room()) /* the first step takes more */
-        return iso_context_no_memory(it->ctx, "CVODE");
+    solver *c = it->data;
+    if (!iso_room()) return iso_context_no_memory(it->ctx, "CVODE"); /* for the first step */
     copy(it->at_right, N_VGetArrayPointer(c->y), it->model.dim);
     const double first = iso_integrator_first_step(it, 1);
     int failed = CVodeReInit(c->memory, 0, c->y);
     /* CVODE chooses its first step itself, but never one below 1e-14 of the time in which the ball turns */
-    if (!failed) failed = CVodeSetInitStep(c->memory, fabs(first) < SHORT ? first : 0);
+    if (!failed) failed = CVodeSetInitStep(c->memory, fabs(first) < 1e-12 ? first : 0);
     return failed ? stopped(it, CVodeGetReturnFlagName(failed)) : ISO_OK;
 }
 
 static iso_status cvode_step(iso_integrator *it, double y[], double *h)
 {
-    cvode *c = it->data;
+    solver *c = it->data;
     sunrealtype t;
     long before = 0, after = 0, unsolved_before = 0, unsolved_after = 0;
     CVodeGetNumErrTestFails(c->memory, &before);
@@ -167,7 +172,7 @@ static iso_status cvode_step(iso_integrator *it, double y[], double *h)
 /* By BDF's own interpolant: the steps may be too long for dense output by an explicit method. */
 static iso_status dense(iso_integrator *it, double dt, double y[])
 {
-    cvode *c = it->data;
+    solver *c = it->data;
     sunrealtype t, last; /* not it->h, which a claim that fails makes shorter */
     CVodeGetCurrentTime(c->memory, &t);
     CVodeGetLastStep(c->memory, &last);
@@ -186,7 +191,7 @@ static iso_suits bdf_suits(const iso_model *m)
 }
 
 #define CVODE_METHOD                                                                                                 \
-    .family = "cvode", .create = cvode_create, .start = cvode_start, .step = cvode_step, .free = cvode_release
+    .family = "cvode", .create = cvode_create, .start = cvode_start, .step = cvode_step, .free = release
 #define CVODE(id, variant_, doc_, ...)                                                                               \
     const iso_method iso_method_##id = {.name = #id, .variant = variant_, .doc = doc_, CVODE_METHOD, __VA_ARGS__};
 
@@ -200,11 +205,6 @@ CVODE(bdf, CV_BDF, "CVODE, variable-order BDF, orders 1-5, analytic Jacobian, pr
  * "first same as last" (sundials#311): Verner's 6th order then measures 3.0. With a post-processing function ERKStep
  * evaluates anew; the projection is such a function, so it is always set. test_order measures every table. */
 
-typedef struct arkode {
-    void *memory;
-    N_Vector y;
-} arkode;
-
 static int after_step(sunrealtype t, N_Vector y, void *integrator)
 {
     (void)t;
@@ -212,24 +212,12 @@ static int after_step(sunrealtype t, N_Vector y, void *integrator)
     return 0;
 }
 
-static void arkode_release(iso_integrator *it)
-{
-    arkode *a = it->data;
-    if (!a) return;
-    if (a->memory) ARKodeFree(&a->memory);
-    if (a->y) N_VDestroy(a->y);
-    free(a);
-}
-
 static iso_status arkode_create(iso_integrator *it)
 {
     const SUNContext sun = iso_context_sundials(it->ctx);
-    arkode *a = it->data = calloc(1, sizeof *a);
-    if (sun && a) a->y = N_VNew_Serial(it->model.dim, sun);
-    if (!a || !a->y) return iso_context_no_memory(it->ctx, "ARKODE");
-    N_VConst(1, a->y);
-    a->memory = ERKStepCreate(rhs, 0, a->y, sun);
-    if (!a->memory) return iso_context_no_memory(it->ctx, "ARKODE");
+    solver *a = create_solver(it, sun, ARKodeFree);
+    if (a) a->memory = ERKStepCreate(rhs, 0, a->y, sun);
+    if (!a || !a->memory) return iso_context_no_memory(it->ctx, "ARKODE");
     ISO_SUN_QUIET(ERKStepSetErrHandlerFn, a->memory);
     int failed = ARKodeSetUserData(a->memory, it);
     if (!failed) failed = ERKStepSetTableNum(a->memory, (ARKODE_ERKTableID)it->method->variant);
@@ -240,9 +228,8 @@ static iso_status arkode_create(iso_integrator *it)
 
 static iso_status arkode_start(iso_integrator *it)
 {
-    arkode *a = it->data;
-    if (!iso_room()) /* the first step takes more */
-        return iso_context_no_memory(it->ctx, "ARKODE");
+    solver *a = it->data;
+    if (!iso_room()) return iso_context_no_memory(it->ctx, "ARKODE"); /* for the first step */
     copy(it->at_right, N_VGetArrayPointer(a->y), it->model.dim);
     int failed = ERKStepReInit(a->memory, rhs, 0, a->y);
     if (!failed && it->options.fixed_step > 0)
@@ -252,7 +239,7 @@ static iso_status arkode_start(iso_integrator *it)
 
 static iso_status arkode_step(iso_integrator *it, double y[], double *h)
 {
-    arkode *a = it->data;
+    solver *a = it->data;
     sunrealtype t;
     long before = 0, after = 0;
     ARKodeGetNumErrTestFails(a->memory, &before);
@@ -270,7 +257,7 @@ static iso_status arkode_step(iso_integrator *it, double y[], double *h)
 
 #define ARKODE                                                                                                       \
     .family = "arkode", .projects = true, .fixed = true, .create = arkode_create, .start = arkode_start,             \
-    .step = arkode_step, .free = arkode_release
+    .step = arkode_step, .free = release
 #define ERK(id, order_, table, ...)                                                                                  \
     const iso_method iso_method_##id = {                                                                             \
         .name = #id, .order = order_, .variant = ARKODE_##table, ARKODE, .doc = __VA_ARGS__};

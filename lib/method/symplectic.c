@@ -93,8 +93,9 @@ static void divide(double h, int count, const double half[], double part[])
     for (int i = 0; i < middle; i++) part[given + i] = rest / middle;
 }
 
-static void plan(const table *t, double h, schedule *s)
+static void plan(const iso_integrator *it, double h, schedule *s)
 {
+    const table *t = &tables[it->method->variant];
     const int kicks = s->kicks = t->kicks;
     divide(h, kicks, t->kick, s->kick);
     s->drift[0] = s->drift[kicks] = t->kick_first ? 0 : s->kick[0] / 2;
@@ -183,11 +184,12 @@ static inline void kick(const iso_model *m, bool clocks, double h, state *z)
     z->clock[ISO_CLOCK_T] += rate * (v_q / sqrt(v));
 }
 
-static void advance(iso_integrator *it, const schedule *s, bool clocks, state *z)
+static void advance(iso_integrator *it, const schedule *s, state *z)
 {
+    const splitting *d = it->data;
     for (int i = 0; i < s->kicks; i++) {
         if (s->drift[i] != 0) drift(s->drift[i], z);
-        kick(&it->model, clocks, s->kick[i], z);
+        kick(&it->model, d->clocks, s->kick[i], z);
     }
     if (s->drift[s->kicks] != 0) drift(s->drift[s->kicks], z);
     it->statistics.rhs += s->kicks;
@@ -199,20 +201,14 @@ static void advance(iso_integrator *it, const schedule *s, bool clocks, state *z
  * differ by half a tolerance for each radian of the way. */
 enum { RADIANS = 12, LOOKS = 4, FIRST_TRIAL = LOOKS, LAST_TRIAL = 512 };
 
-static state begin(const double y[])
-{
-    state z = {.clock = {0}};
-    copy(y, z.y, ISO_STATE);
-    return z;
-}
-
-static void trial(iso_integrator *it, bool clocks, double way, int steps, state at[LOOKS])
+static void trial(iso_integrator *it, double way, int steps, state at[LOOKS])
 {
     schedule s;
-    state z = begin(it->at_right);
-    plan(&tables[it->method->variant], way / steps, &s);
+    state z = {.clock = {0}};
+    copy(it->at_right, z.y, ISO_STATE);
+    plan(it, way / steps, &s);
     for (int i = 1; i <= steps; i++) {
-        advance(it, &s, clocks, &z);
+        advance(it, &s, &z);
         if (i % (steps / LOOKS) == 0) at[i / (steps / LOOKS) - 1] = z;
     }
 }
@@ -236,18 +232,18 @@ static double difference(const state a[LOOKS], const state b[LOOKS], double spee
 
 /* The step for which the difference is as large as it may be: interpolated between two trials on logarithmic scales,
  * extrapolated beyond the last by the order; but no step is longer than a radian. */
-static double choose_step(iso_integrator *it, bool clocks)
+static double choose_step(iso_integrator *it)
 {
     const double speed = it->model.system->speed(&it->model.problem, it->at_right);
     const double may = RADIANS * it->options.tolerance / 2, way = it->direction * RADIANS / speed;
     double n = FIRST_TRIAL, before, now = INFINITY;
     state coarse[LOOKS], fine[LOOKS];
     if (speed == 0) return 1024; /* nothing moves */
-    trial(it, clocks, way, FIRST_TRIAL, fine);
+    trial(it, way, FIRST_TRIAL, fine);
     do {
         before = now;
         memcpy(coarse, fine, sizeof fine);
-        trial(it, clocks, way, 2 * (int)n, fine);
+        trial(it, way, 2 * (int)n, fine);
         now = difference(coarse, fine, speed);
         n *= 2;
     } while (now > may && n < 2 * LAST_TRIAL);
@@ -256,8 +252,6 @@ static double choose_step(iso_integrator *it, bool clocks)
     if (isfinite(order) && order > 0) n *= pow(fmin(now / may, 1e12), 1 / order);
     return fabs(way) / fmax(RADIANS, n);
 }
-
-enum { SAVED_NUMBERS = 2 };
 
 /* --- the method ------------------------------------------------------------------------------------------------ */
 
@@ -273,7 +267,7 @@ static iso_status create(iso_integrator *it)
     if (!d) return iso_context_no_memory(it->ctx, "%s", it->method->name);
     d->clocks = m->clock != ISO_CLOCK_S;
     for (int c = 0; c < m->clocks; c++) d->clocks = d->clocks || m->clock_of[c] != ISO_CLOCK_S;
-    it->saved = (SAVED_NUMBERS + 2 * (size_t)m->dim) * sizeof(double);
+    it->saved = (2 + 2 * (size_t)m->dim) * sizeof(double);
     return ISO_OK;
 }
 
@@ -294,18 +288,18 @@ static iso_status start(iso_integrator *it)
 {
     splitting *d = it->data;
     *d = (splitting){.clocks = d->clocks, .until_restored = STEPS_TO_RESTORE, .step = it->options.fixed_step};
-    if (d->step == 0) d->step = choose_step(it, d->clocks);
-    plan(&tables[it->method->variant], it->direction * d->step, &d->whole);
+    if (d->step == 0) d->step = choose_step(it);
+    plan(it, it->direction * d->step, &d->whole);
     return ISO_OK;
 }
 
 /* From y and its rest by the schedule s, which is a step, or a part of one, of length ds; *z is where it arrives. */
 static void move(iso_integrator *it, const schedule *s, double ds, double y[], double rest[], state *z)
 {
-    const splitting *d = it->data;
-    *z = begin(y);
+    *z = (state){.clock = {0}};
+    copy(y, z->y, ISO_STATE);
     copy(rest, z->rest, ISO_STATE);
-    advance(it, s, d->clocks, z);
+    advance(it, s, z);
     z->clock[ISO_CLOCK_S] = ds;
     copy(z->y, y, ISO_STATE);
     copy(z->rest, rest, ISO_STATE);
@@ -330,28 +324,22 @@ static iso_status step(iso_integrator *it, double y[], double *h)
                                                         : iso_integrator_stopped(it, "the state is not finite");
 }
 
-/* A part of a step, ds from its left end, is computed as a step of that length. */
-static void part(iso_integrator *it, double ds, double y[], state *z)
-{
-    const splitting *d = it->data;
-    double rest[ISO_MAX_STATE];
-    schedule s;
-    copy(it->at_left, y, it->model.dim);
-    copy(d->rest_left, rest, it->model.dim);
-    plan(&tables[it->method->variant], ds, &s);
-    move(it, &s, ds, y, rest, z);
-}
-
-/* Newton's method on the clock of the model; in s it has nothing to do. */
+/* A part of a step, ds from its left end, is computed as a step of that length. Newton's method on the clock of the
+ * model finds ds; in s it has nothing to do. */
 static iso_status dense(iso_integrator *it, double dt, double y[])
 {
     enum { MAX_ITERATIONS = 20 };
     const iso_model *m = &it->model;
     const splitting *d = it->data;
-    double ds = it->model.clock == ISO_CLOCK_S ? dt : dt / it->h * (it->direction * d->step), reached[ISO_MAX_STATE];
-    state z;
+    double ds = m->clock == ISO_CLOCK_S ? dt : dt / it->h * (it->direction * d->step), reached[ISO_MAX_STATE];
     for (int i = 0; i < MAX_ITERATIONS; i++) {
-        part(it, ds, reached, &z);
+        double rest[ISO_MAX_STATE];
+        schedule s;
+        state z;
+        copy(it->at_left, reached, m->dim);
+        copy(d->rest_left, rest, m->dim);
+        plan(it, ds, &s);
+        move(it, &s, ds, reached, rest, &z);
         const double miss = dt - z.clock[m->clock], q = m->system->q(&m->problem.p, reached, NULL);
         /* at least one correction: a short dt is wanted exact relative to itself, not to the step */
         if (miss == 0 || (i > 0 && !(fabs(miss) > DBL_EPSILON * fabs(it->h)))) break;
@@ -363,30 +351,26 @@ static iso_status dense(iso_integrator *it, double dt, double y[])
     return ISO_OK;
 }
 
-/* What the next step depends on: the state with its rest, the length of steps, and how many until it is restored. */
+/* What the next step depends on: how many steps until it is restored, their length, the state with its rest. */
 static void save(const iso_integrator *it, void *to)
 {
     const splitting *d = it->data;
-    const size_t bytes = (size_t)it->model.dim * sizeof(double);
-    const double numbers[SAVED_NUMBERS] = {d->until_restored, d->step};
-    char *next = to;
-    memcpy(next, numbers, sizeof numbers);
-    memcpy(next += sizeof numbers, it->at_right, bytes);
-    memcpy(next + bytes, d->rest, bytes);
+    const int dim = it->model.dim;
+    double *next = to;
+    next[0] = d->until_restored, next[1] = d->step;
+    copy(it->at_right, next + 2, dim);
+    copy(d->rest, next + 2 + dim, dim);
 }
 
 static void recall(iso_integrator *it, const void *from, double y[])
 {
     splitting *d = it->data;
-    const size_t bytes = (size_t)it->model.dim * sizeof(double);
-    double numbers[SAVED_NUMBERS];
-    const char *next = from;
-    memcpy(numbers, next, sizeof numbers);
-    memcpy(y, next += sizeof numbers, bytes);
-    memcpy(d->rest, next + bytes, bytes);
-    d->until_restored = (int)numbers[0];
-    d->step = numbers[1];
-    plan(&tables[it->method->variant], it->direction * d->step, &d->whole);
+    const int dim = it->model.dim;
+    const double *next = from;
+    d->until_restored = (int)next[0], d->step = next[1];
+    copy(next + 2, y, dim);
+    copy(next + 2 + dim, d->rest, dim);
+    plan(it, it->direction * d->step, &d->whole);
 }
 
 #define METHOD                                                                                                       \

@@ -70,15 +70,6 @@ static const iso_scene *scene_of(const batch *b, size_t i)
     return b->scene[b->scenes == 1 ? 0 : i];
 }
 
-static iso_status choose(iso_context *ctx, const batch *b, size_t i, member *m)
-{
-    if (b->orbits) return m->given = b->orbits[i], ISO_OK;
-    const iso_scene *scene = scene_of(b, i);
-    m->given = (iso_batch_orbit){&m->params, &m->start, &scene->effects};
-    return iso_scene_replaced(ctx, scene, b->k ? b->k + i : NULL, b->J ? b->J + 3 * i : NULL,
-                              b->start ? b->start + 6 * i : NULL, &m->params, &m->start);
-}
-
 static iso_orbit_options options_of(const batch *b, const member *m, iso_backend backend)
 {
     const iso_batch_options *o = &b->options;
@@ -91,27 +82,33 @@ static iso_orbit_options options_of(const batch *b, const member *m, iso_backend
                                .with_clock = {o->with_clock[0], o->with_clock[1], o->with_clock[2]}};
 }
 
-static iso_status prepare(iso_pool_worker *w, const batch *b, size_t i, member *m)
+/* Prepares orbit i for the lanes. One that they cannot hold (iso_lanes_suit) is followed at once, alone. */
+static iso_status begin(iso_pool_worker *w, const batch *b, size_t i, member *m, bool *in_lanes)
 {
-    iso_status status = choose(w->ctx, b, i, m);
-    if (status != ISO_OK) return status;
+    const double *k = b->k ? b->k + i : NULL, *J = b->J ? b->J + 3 * i : NULL,
+                 *start = b->start ? b->start + 6 * i : NULL;
+    *in_lanes = false;
+    if (b->orbits) {
+        m->given = b->orbits[i];
+    } else {
+        m->given = (iso_batch_orbit){&m->params, &m->start, &scene_of(b, i)->effects};
+        ISO_TRY(iso_scene_replaced(w->ctx, scene_of(b, i), k, J, start, &m->params, &m->start));
+    }
+    const iso_batch_orbit *of = &m->given;
     const iso_backend asked = b->options.backend;
-    iso_way way = iso_way_first(m->given.params, asked, asked, false);
+    iso_attempt attempt = iso_attempt_first(of->params, asked, asked, false);
+    iso_orbit_options options;
+    iso_status status;
     do {
-        iso_orbit_clear(&m->orbit);
-        m->orbit.ctx = w->ctx;
-        m->orbit.options = options_of(b, m, way.backend);
-        status = iso_orbit_prepare(&m->orbit, m->given.params, m->given.start, m->job.start);
-    } while (iso_way_next(&way, status));
-    return status == ISO_OK && b->rows > 0 ? iso_orbit_check_time(&m->orbit, b->times[b->rows - 1]) : status;
-}
-
-/* Follows an orbit alone, if lanes cannot hold it (iso_lanes_suit). */
-static iso_status solve_alone(iso_pool_worker *w, const batch *b, const member *m)
-{
-    const iso_orbit_options options = options_of(b, m, b->options.backend);
+        options = options_of(b, m, attempt.backend);
+        status = iso_orbit_prepare(&m->orbit, w->ctx, &options, of->params, of->start, m->job.start);
+    } while (iso_attempt_next(&attempt, status));
+    if (status == ISO_OK && b->rows > 0) status = iso_orbit_check_time(&m->orbit, b->times[b->rows - 1]);
+    *in_lanes = status == ISO_OK && iso_lanes_suit(&m->orbit);
+    if (status != ISO_OK || *in_lanes) return status;
     iso_orbit *orbit;
-    iso_status status = iso_orbit_create(w->ctx, m->given.params, m->given.start, &options, &orbit);
+    options = options_of(b, m, asked);
+    status = iso_orbit_create(w->ctx, of->params, of->start, &options, &orbit);
     for (size_t j = 0; j < b->rows && status == ISO_OK; j++) {
         status = iso_orbit_at(orbit, b->times[j], &m->sample[j]);
         if (status != ISO_OK) iso_sample_blank(&m->sample[j]);
@@ -138,62 +135,35 @@ static iso_status finish(iso_pool_worker *w, const batch *b, const member *m)
     return job->done == b->rows ? ISO_OK : iso_context_stopped(w->ctx);
 }
 
-static void set_job(const batch *b, member *m)
-{
-    iso_lane_job *job = &m->job;
-    job->model = &m->orbit.model;
-    job->unit = m->orbit.unit_clock[b->options.clock];
-    job->rows = b->rows;
-    job->time = b->times;
-    job->states = (double *)m->sample;
-    job->stride = sizeof(iso_sample) / sizeof(double);
-}
-
-static bool solve_members(iso_pool_worker *w, const batch *b, member members[], size_t first, size_t count)
-{
-    iso_lane_job *jobs[CHUNK];
-    bool in_lanes[CHUNK] = {false};
-    size_t waiting = 0;
-    for (size_t i = 0; i < count && iso_pool_goes_on(w); i++) {
-        member *m = &members[i];
-        iso_status status = prepare(w, b, first + i, m);
-        in_lanes[i] = status == ISO_OK && iso_lanes_suit(&m->orbit);
-        if (status == ISO_OK && !in_lanes[i]) status = solve_alone(w, b, m);
-        note(w, b, first + i, status);
-        if (!in_lanes[i]) continue;
-        set_job(b, m);
-        jobs[waiting++] = &m->job;
-    }
-    const bool memory = iso_lanes_in_groups(w, b->code, b->options.tolerance, b->options.max_steps, jobs, waiting);
-    for (size_t i = 0; i < count; i++)
-        if (in_lanes[i]) note(w, b, first + i, finish(w, b, &members[i]));
-    return memory;
-}
-
-/* The samples of a chunk go to the table. Their numbers stand in the order of the columns. */
-static void take_columns(const batch *b, const iso_sample sample[], size_t first, size_t count)
-{
-    _Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double), "an array of its columns");
-    const double *from = (const double *)sample;
-    double *to = b->table + first * b->rows * (size_t)b->width;
-    for (size_t i = 0; i < count * b->rows; i++, from += ISO_TRAJECTORY_COLUMNS)
-        for (int c = 0; c < b->width; c++) *to++ = from[b->columns[c]];
-}
-
 static bool solve_chunk(iso_pool_worker *w, void *data, size_t first, size_t count)
 {
     const batch *b = data;
+    iso_lane_job *jobs[CHUNK];
+    size_t waiting = 0, place[CHUNK];
     member *members = malloc(count * sizeof *members);
     if (b->table && !w->room) w->room = malloc(w->all->chunk * b->rows * sizeof(iso_sample) + 1);
     iso_sample *samples = b->table ? w->room : b->samples + first * b->rows;
-    bool memory = members && (samples || !b->table);
-    for (size_t i = 0; memory && i < count; i++) {
-        members[i].sample = samples + i * b->rows;
-        members[i].job = (iso_lane_job){.unit = 0};
-    }
+    bool memory = members && (samples || !b->table), in_lanes;
     for (size_t i = 0; memory && i < count * b->rows; i++) iso_sample_blank(&samples[i]);
-    memory = memory && solve_members(w, b, members, first, count);
-    if (memory && b->table) take_columns(b, samples, first, count);
+    for (size_t i = 0; memory && i < count && iso_pool_goes_on(w); i++) {
+        member *m = &members[i];
+        m->sample = samples + i * b->rows;
+        m->job = (iso_lane_job){.model = &m->orbit.model,
+                                .rows = b->rows,
+                                .time = b->times,
+                                .states = (double *)m->sample,
+                                .stride = sizeof(iso_sample) / sizeof(double)};
+        note(w, b, first + i, begin(w, b, first + i, m, &in_lanes));
+        if (!in_lanes) continue;
+        m->job.unit = m->orbit.unit_clock[b->options.clock];
+        place[waiting] = i;
+        jobs[waiting++] = &m->job;
+    }
+    memory = memory && iso_lanes_in_groups(w, b->code, b->options.tolerance, b->options.max_steps, jobs, waiting);
+    for (size_t j = 0; memory && j < waiting; j++) note(w, b, first + place[j], finish(w, b, &members[place[j]]));
+    double *to = b->table ? b->table + first * b->rows * (size_t)b->width : NULL;
+    for (size_t i = 0; memory && to && i < count * b->rows; i++)
+        for (int c = 0; c < b->width; c++) *to++ = iso_sample_column(&samples[i], b->columns[c]);
     for (size_t i = first; !memory && i < first + count; i++) b->status[i] = UNTOUCHED;
     free(members);
     return memory;
@@ -201,50 +171,39 @@ static bool solve_chunk(iso_pool_worker *w, void *data, size_t first, size_t cou
 
 /* --- all -------------------------------------------------------------------------------------------------------- */
 
-static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_lane_build *code,
-                        const double times[], size_t rows)
+/* Checks the options, then solves all. An orbit that no thread has taken has no rows, and the status of the call. */
+static iso_status run(iso_context *ctx, batch *b, const iso_batch_options *options, iso_status status[])
 {
+    const iso_batch_options *o = &b->options;
+    const size_t fits = ROOM / ((b->rows + 1) * sizeof(iso_sample)), width = b->rows * (size_t)b->width;
+    const size_t chunk = !b->table || fits > CHUNK ? CHUNK : fits < LEAST ? LEAST : fits;
+    b->options = options ? *options : iso_batch_defaults();
+    b->code = iso_lane_build_find(o->vectors, false);
     if (o->backend == ISO_BACKEND_EXACT)
         return ISO_FAIL_ARGUMENT(ctx, "backend",
                                  "a batch integrates: backend exact is for single orbits, which share nothing");
     ISO_TRY(iso_tolerance_check(ctx, o->tolerance));
-    ISO_TRY(iso_lanes_check(ctx, o->threads, o->vectors, code != NULL));
-    for (size_t j = 0; j < rows; j++) {
-        const double before = j > 0 ? times[j - 1] : 0;
-        const bool back = times[rows - 1] < 0;
-        if (!isfinite(times[j]) || (back ? times[j] > before || times[j] > 0 : times[j] < before))
+    ISO_TRY(iso_lanes_check(ctx, o->threads, o->vectors, b->code != NULL));
+    for (size_t j = 0; j < b->rows; j++) {
+        const double time = b->times[j], before = j > 0 ? b->times[j - 1] : 0;
+        const bool back = b->times[b->rows - 1] < 0;
+        if (!isfinite(time) || (back ? time > before || time > 0 : time < before))
             return ISO_FAIL_ARGUMENT(ctx, "times",
                                      "the times of a batch go away from 0, in one direction: not %s after %s",
-                                     ISO_SHORT(times[j]), ISO_SHORT(before));
+                                     ISO_SHORT(time), ISO_SHORT(before));
     }
-    return ISO_OK;
-}
-
-/* An orbit that no thread has taken has no rows, and the status of the call. */
-static void leave(const batch *b, size_t i, iso_status answer)
-{
-    if (b->status && b->status[i] != UNTOUCHED) return;
-    if (b->status) b->status[i] = answer;
-    const size_t each = b->rows * (size_t)b->width;
-    for (size_t j = 0; b->table && j < each; j++) b->table[i * each + j] = NAN;
-    for (size_t j = 0; !b->table && j < b->rows; j++) iso_sample_blank(&b->samples[i * b->rows + j]);
-}
-
-/* Looks at the options, then solves all. */
-static iso_status run(iso_context *ctx, batch *b, const iso_batch_options *options, iso_status status[])
-{
-    b->options = options ? *options : iso_batch_defaults();
-    b->code = iso_lane_build_find(b->options.vectors, false);
-    iso_status answer = check(ctx, &b->options, b->code, b->times, b->rows);
-    if (answer != ISO_OK) return answer;
-    const size_t fits = ROOM / ((b->rows + 1) * sizeof(iso_sample));
-    const size_t chunk = !b->table || fits > CHUNK ? CHUNK : fits < LEAST ? LEAST : fits;
     iso_pool pool = {.what = "orbit", .count = b->count, .chunk = chunk, .solve = solve_chunk, .data = b};
-    const size_t threads = iso_pool_threads(b->options.threads, b->count, b->code->lanes);
     b->status = status ? status : malloc((b->count + 1) * sizeof *b->status);
-    for (size_t i = 0; b->status && i < b->count; i++) b->status[i] = UNTOUCHED;
-    answer = b->status ? iso_pool_run(ctx, &pool, threads, b->status) : iso_context_no_memory(ctx, "a batch");
-    for (size_t i = 0; i < b->count; i++) leave(b, i, answer);
+    if (!b->status) return iso_context_no_memory(ctx, "a batch");
+    for (size_t i = 0; i < b->count; i++) b->status[i] = UNTOUCHED;
+    const iso_status answer =
+        iso_pool_run(ctx, &pool, iso_pool_threads(o->threads, b->count, b->code->lanes), b->status);
+    for (size_t i = 0; i < b->count; i++) {
+        if (b->status[i] != UNTOUCHED) continue;
+        b->status[i] = answer;
+        for (size_t j = 0; b->table && j < width; j++) b->table[i * width + j] = NAN;
+        for (size_t j = 0; !b->table && j < b->rows; j++) iso_sample_blank(&b->samples[i * b->rows + j]);
+    }
     if (!status) free(b->status);
     return answer;
 }
@@ -260,17 +219,13 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
 
 /* --- scenes ----------------------------------------------------------------------------------------------------- */
 
-static bool same_columns(const batch *b, const iso_scene *scene)
-{
-    int columns[ISO_MAX_COLUMNS];
-    return iso_scene_column_list(scene, columns) == b->width &&
-           memcmp(columns, b->columns, (size_t)b->width * sizeof *columns) == 0;
-}
-
 static iso_status check_scene(iso_context *ctx, const batch *b, size_t i)
 {
     const iso_scene *first = scene_of(b, 0), *scene = scene_of(b, i);
-    const char *apart = !same_columns(b, scene)                    ? "columns"
+    int columns[ISO_MAX_COLUMNS];
+    const bool same = iso_scene_column_list(scene, columns) == b->width &&
+                      memcmp(columns, b->columns, (size_t)b->width * sizeof *columns) == 0;
+    const char *apart = !same                                      ? "columns"
                         : scene->backend != first->backend         ? "backend"
                         : scene->tolerance != first->tolerance     ? "tolerance"
                         : scene->start.model != first->start.model ? "model of the start"
@@ -323,8 +278,7 @@ iso_status iso_batch_table(iso_context *ctx, const iso_scene *const scene[], siz
                                  count);
     if (count == 0) return ISO_OK;
     b.width = iso_scene_column_list(scene_of(&b, 0), b.columns);
-    iso_status answer = ISO_OK;
-    for (size_t i = 0; answer == ISO_OK && i < scenes; i++) answer = check_scene(ctx, &b, i);
+    for (size_t i = 0; i < scenes; i++) ISO_TRY(check_scene(ctx, &b, i));
     const iso_batch_options o = shared_options(&b, threads, vectors);
-    return answer == ISO_OK ? run(ctx, &b, &o, status) : answer;
+    return run(ctx, &b, &o, status);
 }

@@ -14,7 +14,7 @@
  * With `deviations` the first-order variation of each orbit is computed beside it, for two deviations d1, d2. The
  * metric is |dn|^2 + |dw|^2/|w|^2 of (n, omega), or of (gamma, gamma') for a point. Both deviations begin tangent to
  * the constraints and to the level of the energy, and normal to the flow; they are orthogonal and have length 1.
- * Lengths and angles are given without the part along the flow, which tells only how far ahead of the orbit its
+ * Lengths and angles are given without the part along the flow, which says only how far ahead of the orbit its
  * neighbour is.
  *
  * Orbits on which nothing acts but a level are followed in the lanes of vectors and on all threads (batch.h). The
@@ -42,7 +42,6 @@ typedef struct iso_crossings_options {
     iso_clock clock; /* of ISO_SECTION_CLOCK                                                                 */
     bool deviations;
     double tolerance;
-    long max_steps;   /* between two crossings; 0: no bound                                                   */
     iso_models shown; /* what samples show                                                                    */
     int threads;
     const char *vectors;
@@ -90,7 +89,7 @@ iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[]
 void iso_crossings_free(iso_crossings *c);
 
 /* Each orbit i with wanted[i] (wanted NULL: every orbit) goes on to its next `each` crossings. They are
- * crossing[each i + j] and sample[each i + j] (sample NULL: none), j < done[i]. status[i] is ISO_OK, or tells why
+ * crossing[each i + j] and sample[each i + j] (sample NULL: none), j < done[i]. status[i] is ISO_OK, or says why
  * there are fewer than `each`. An orbit that has failed does not go on: later calls give the same status. The others
  * go on.
  * A start on the section (n_a = 0 up to 1e-8 of its oscillation, and not falling) is no crossing.

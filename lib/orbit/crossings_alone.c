@@ -10,61 +10,40 @@
 #include "base/context_impl.h"
 #include "base/math_impl.h"
 #include "base/number_impl.h"
-#include "base/vec3_impl.h"
-#include "map/section.h"
+#include "base/pool_impl.h"
 #include "model/model_impl.h"
 #include "orbit/crossings_impl.h"
-
-/* --- the orbit -------------------------------------------------------------------------------------------------- */
-
-static iso_status create(const iso_crossings *c, size_t i, iso_orbit **orbit)
-{
-    const iso_batch_orbit *of = &c->orbits[i];
-    iso_way way = iso_crossings_way(c, i);
-    iso_status status;
-    do {
-        const iso_orbit_options how = iso_crossings_orbit_options(c, i, way);
-        status = iso_orbit_create(c->orbit[i].ctx, of->params, of->start, &how, orbit);
-    } while (iso_way_next(&way, status));
-    return status;
-}
-
-/* --- the start -------------------------------------------------------------------------------------------------- */
 
 static const double *state_of(const iso_orbit *orbit, const iso_sample *sample)
 {
     return iso_crossings_model(orbit) == ISO_POINT ? sample->point : sample->ball;
 }
 
-/* Lanes cannot follow the orbit. Returns to a section need bounds for their times, which are powers of q. */
-static iso_status refuse_deviations(const iso_crossings *c, size_t i)
-{
-    iso_context *ctx = c->orbit[i].ctx;
-    const iso_params *p = c->orbits[i].params;
-    if (c->options.kind == ISO_SECTION_AXIS && iso_params_check_powers(ctx, p) != ISO_OK) return ISO_BAD_INPUT;
-    return ISO_FAIL_INPUT(ctx, "deviations",
-                          "deviations are computed for free orbits on a global section, and at equal steps of a "
-                          "clock; not for stiff balls, balls at rest, or effects without a formula");
-}
-
+/* Creates orbit i, at its start. Lanes have not taken it, so it has no deviations. */
 static iso_status begin(iso_crossings *c, size_t i)
 {
+    const iso_batch_orbit *of = &c->orbits[i];
     iso_crossing_orbit *o = &c->orbit[i];
+    iso_attempt attempt = iso_crossings_attempt(c, i);
+    iso_status status;
     iso_sample start;
-    if (c->options.deviations) return refuse_deviations(c, i);
-    ISO_TRY(create(c, i, &o->alone));
+    if (c->options.deviations) {
+        /* returns to a section need bounds for their times, which are powers of q */
+        if (c->options.kind == ISO_SECTION_AXIS) ISO_TRY(iso_params_check_powers(o->ctx, of->params));
+        return ISO_FAIL_INPUT(o->ctx, "deviations",
+                              "deviations are computed for free orbits on a global section, and at equal steps of a "
+                              "clock; not for stiff balls, balls at rest, or effects without a formula");
+    }
+    do {
+        const iso_orbit_options how = iso_crossings_orbit_options(c, i, attempt);
+        status = iso_orbit_create(o->ctx, of->params, of->start, &how, &o->alone);
+    } while (iso_attempt_next(&attempt, status));
+    if (status != ISO_OK) return status;
     ISO_TRY(iso_orbit_at(o->alone, 0, &start));
     if (o->alone->rests && c->options.kind != ISO_SECTION_CLOCK)
         return ISO_FAIL_NUMERICAL(o->ctx, "the ball rests: it crosses no section");
-    iso_crossings_find_section(c, o->alone, o);
-    if (o->axis < 0) return ISO_OK;
-    const double *y = state_of(o->alone, &start);
-    o->begins_on_it =
-        iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(o->alone), y, o->axis, &o->upwards);
-    return iso_crossings_check_plane(o->ctx, o->alone, y, o->axis);
+    return iso_crossings_begin(o->ctx, c, of->params, o->alone, state_of(o->alone, &start), o);
 }
-
-/* --- crossings -------------------------------------------------------------------------------------------------- */
 
 /* What an event looks at, and what it has seen since the last crossing: the least and the largest n_1, n_2, n_3 (of
  * the point: gamma), or those of the column */
@@ -91,12 +70,7 @@ static double beyond(const iso_sample *sample, const void *data)
 /* The longest time of a turn, in the orbit's clock and the caller's units. */
 static double turn_of(const iso_orbit *orbit)
 {
-    const iso_params *own = &orbit->units.own;
-    const iso_clock clock = orbit->options.clock;
-    const double rate = clock == ISO_CLOCK_T ? 1
-                                             : fmax(iso_clock_rate(own, clock, min3(own->J), NULL),
-                                                    iso_clock_rate(own, clock, max3(own->J), NULL));
-    return 2 * ISO_PI * rate * orbit->unit_clock[clock];
+    return 2 * ISO_PI * iso_orbit_fastest(orbit) * orbit->unit_clock[orbit->model.clock];
 }
 
 /* The orbit does not come to the section: nothing has failed, another section is wanted. The message names one. */
@@ -128,72 +102,72 @@ static iso_status refuse_section(const iso_crossings *c, const iso_crossing_orbi
         advice);
 }
 
-static iso_status next_event(iso_crossings *c, iso_crossing_orbit *o, iso_sample *sample)
+/* The next event, or the next equal step. */
+static iso_status find_next(const iso_crossings *c, const iso_crossing_orbit *o, iso_sample *sample)
 {
     double seen[3][2] = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
     const watch w = {c, o, seen};
+    const double last = o->time + ISO_MOST_BETWEEN * turn_of(o->alone);
     bool found;
-    const iso_status status = iso_orbit_event(o->alone, beyond, &w, 1, o->time,
-                                              o->time + ISO_MOST_BETWEEN * turn_of(o->alone), &found, sample);
-    return status != ISO_OK || found ? status : refuse_section(c, o, seen);
-}
-
-static iso_status next_sample(iso_crossings *c, iso_crossing_orbit *o, iso_sample *sample)
-{
-    const long most = c->options.max_steps, so_far = iso_orbit_statistics(o->alone).steps;
-    if (most > 0) iso_orbit_allow_steps(o->alone, so_far + most);
     if (c->options.kind == ISO_SECTION_CLOCK)
         return iso_orbit_at(o->alone, (double)(o->count + 1) * c->options.value, sample);
-    return next_event(c, o, sample);
+    ISO_TRY(iso_orbit_event(o->alone, beyond, &w, 1, o->time, last, &found, sample));
+    return found ? ISO_OK : refuse_section(c, o, seen);
 }
 
-static void fill(const iso_crossing_orbit *o, const iso_sample *sample, iso_crossing *to)
+/* Orbit i goes on to its next crossings. The message of a failure is in its own context. */
+static iso_status go_on(iso_crossings *c, const iso_crossings_task *t, size_t i)
 {
-    iso_crossing_blank(to);
-    for (int k = 0; k < ISO_CLOCKS; k++) to->clock[k] = sample->clock[k];
-    if (!iso_orbit_has_twin(o->alone)) to->clock[ISO_CLOCK_TAU] = to->clock[ISO_CLOCK_S] = NAN;
-    if (o->axis < 0) return;
-    double point[ISO_STATE];
-    iso_crossings_point(&o->alone->units.own, iso_crossings_model(o->alone), state_of(o->alone, sample), point);
-    iso_section_chart(o->axis, point, &to->l, &to->x);
-}
-
-/* Whether this first event is the start itself, up to rounding. An orbit that starts on the section crosses it again
- * only after a full oscillation of n_a. */
-static bool is_start(const iso_crossing_orbit *o, double time, double s)
-{
-    if (!o->begins_on_it || o->count > 0) return false;
-    return isnan(o->bound[0]) || isnan(s) ? time < 1e-6 * turn_of(o->alone) : s < o->bound[0] / 4;
-}
-
-/* One crossing. *counts false: it is the start. */
-static iso_status step(iso_crossings *c, iso_crossing_orbit *o, iso_crossing *crossing, iso_sample *sample,
-                       bool *counts)
-{
-    iso_sample here;
-    ISO_TRY(next_sample(c, o, &here));
-    const double s = here.clock[ISO_CLOCK_S] / o->alone->unit_clock[ISO_CLOCK_S];
-    o->time = here.clock[o->alone->options.clock];
-    *counts = !is_start(o, o->time, s);
-    if (!*counts) return ISO_OK;
-    ISO_TRY(iso_crossings_hold(o->ctx, c, o, o->alone, s));
-    fill(o, &here, crossing);
-    if (sample) iso_crossings_give(c, &here, sample);
-    o->s = s;
-    o->count++;
+    iso_crossing_orbit *o = &c->orbit[i];
+    if (!o->alone) ISO_TRY(begin(c, i));
+    for (size_t *done = &t->done[i]; *done < t->each;) {
+        const size_t to = t->stride * i + *done;
+        iso_sample here;
+        if (!iso_context_goes_on(o->ctx)) return iso_context_stopped(o->ctx);
+        ISO_TRY(find_next(c, o, &here));
+        const double s = here.clock[ISO_CLOCK_S] / o->alone->unit_clock[ISO_CLOCK_S];
+        o->time = here.clock[o->alone->options.clock];
+        /* The first event may be the start itself, up to rounding: an orbit that starts on the section crosses it again
+         * only after a full oscillation of n_a. */
+        if (o->begins_on_it && o->count == 0 &&
+            (isnan(o->bound[0]) || isnan(s) ? o->time < 1e-6 * turn_of(o->alone) : s < o->bound[0] / 4))
+            continue;
+        ISO_TRY(
+            iso_crossings_add(o->ctx, c, o->alone, here.clock, s, state_of(o->alone, &here), o, &t->crossing[to]));
+        iso_crossings_hide(c, &here);
+        if (t->sample) t->sample[to] = here;
+        ++*done;
+    }
     return ISO_OK;
 }
 
-iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_crossing crossing[],
-                                  iso_sample sample[], size_t *done)
+typedef struct follower {
+    iso_crossings *c;
+    const iso_crossings_task *task;
+} follower;
+
+static bool solve(iso_pool_worker *w, void *data, size_t i, size_t count)
 {
-    iso_crossing_orbit *o = &c->orbit[i];
-    iso_status status = o->alone ? ISO_OK : begin(c, i);
-    while (status == ISO_OK && *done < each) {
-        bool counts;
-        status = iso_context_goes_on(o->ctx) ? step(c, o, &crossing[*done], sample ? &sample[*done] : NULL, &counts)
-                                             : iso_context_stopped(o->ctx);
-        *done += status == ISO_OK && counts;
-    }
-    return status;
+    const follower *f = data;
+    iso_crossing_orbit *o = &f->c->orbit[i];
+    (void)count; /* 1: chunks of one orbit */
+    if (!iso_crossings_wants(f->c, f->task, i) || o->lane) return true;
+    f->task->status[i] = ISO_STOPPED;
+    if (!iso_pool_goes_on(w)) return true;
+    if (!o->ctx) o->ctx = iso_context_create();
+    if (!o->ctx) return false;
+    iso_context_set_monitor(o->ctx, iso_pool_goes_on, w);
+    const iso_status status = go_on(f->c, f->task, i);
+    iso_context_set_monitor(o->ctx, NULL, NULL);
+    iso_crossings_keep(f->c, f->task, o->ctx, i, status);
+    return true;
+}
+
+iso_status iso_crossings_alone(iso_crossings *c, const iso_crossings_task *t)
+{
+    follower f = {c, t};
+    iso_pool pool = {.what = "orbit", .count = c->count, .chunk = 1, .solve = solve, .data = &f};
+    size_t alone = 0;
+    for (size_t i = 0; i < c->count; i++) alone += iso_crossings_wants(c, t, i) && !c->orbit[i].lane;
+    return alone == 0 ? ISO_OK : iso_pool_run(c->ctx, &pool, iso_pool_threads(c->options.threads, alone, 1), NULL);
 }

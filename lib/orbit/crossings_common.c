@@ -14,45 +14,34 @@
 
 /* --- the orbit -------------------------------------------------------------------------------------------------- */
 
-/* Whether the states of a model are needed: because it is integrated, because samples show it, or for the column. */
-static bool needs(const iso_crossings_options *o, iso_backend backend, iso_models model)
-{
-    const bool point = model == ISO_SHOW_POINT;
-    const bool of_point = o->column >= ISO_COLUMN_POINT && o->column < ISO_COLUMN_EFFECTS;
-    if ((int)backend == (int)model || o->shown == model || o->shown == ISO_SHOW_BOTH) return true;
-    return o->kind == ISO_SECTION_COLUMN && of_point == point;
-}
-
-iso_way iso_crossings_way(const iso_crossings *c, size_t i)
+iso_attempt iso_crossings_attempt(const iso_crossings *c, size_t i)
 {
     const iso_backend asked = c->options.backend, last = asked == ISO_BACKEND_AUTO ? ISO_BACKEND_BALL : asked;
     const iso_batch_orbit *of = &c->orbits[i];
     iso_effects effects = of->effects ? *of->effects : iso_effects_default();
     iso_start_settle(of->params, of->start, &effects);
-    return iso_way_first(of->params, asked, last, !iso_effects_breaking(&effects));
+    return iso_attempt_first(of->params, asked, last, !iso_effects_breaking(&effects));
 }
 
-iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_way way)
+iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_attempt attempt)
 {
     const iso_crossings_options *o = &c->options;
     const iso_batch_orbit *of = &c->orbits[i];
     iso_orbit_options how = iso_orbit_defaults(of->start);
     how.effects = of->effects;
-    how.backend = way.backend;
+    how.backend = attempt.backend;
     how.tolerance = o->tolerance;
     how.memory = 0; /* it only goes on */
-    how.clock = way.backend == ISO_BACKEND_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
+    how.clock = attempt.backend == ISO_BACKEND_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
     if (o->kind == ISO_SECTION_CLOCK) how.clock = o->clock;
-    for (iso_clock k = 0; k < ISO_CLOCKS; k++) how.with_clock[k] = way.clocks;
-    how.shown = !needs(o, way.backend, ISO_SHOW_POINT)  ? ISO_SHOW_BALL
-                : !needs(o, way.backend, ISO_SHOW_BALL) ? ISO_SHOW_POINT
-                                                        : ISO_SHOW_BOTH;
+    for (iso_clock k = 0; k < ISO_CLOCKS; k++) how.with_clock[k] = attempt.clocks;
+    /* the states of a model are needed because it is integrated, because samples show it, or for the column */
+    const bool of_point = o->column >= ISO_COLUMN_POINT && o->column < ISO_COLUMN_EFFECTS;
+    const iso_models of_column = of_point ? ISO_SHOW_POINT : ISO_SHOW_BALL;
+    how.shown = o->shown;
+    if (how.shown != (iso_models)attempt.backend || (o->kind == ISO_SECTION_COLUMN && how.shown != of_column))
+        how.shown = ISO_SHOW_BOTH;
     return how;
-}
-
-iso_model_kind iso_crossings_model(const iso_orbit *orbit)
-{
-    return iso_orbit_backend(orbit) == ISO_BACKEND_POINT ? ISO_POINT : ISO_BALL;
 }
 
 /* --- bounds ----------------------------------------------------------------------------------------------------- */
@@ -64,54 +53,6 @@ iso_status iso_crossings_check_axis(iso_context *ctx, int axis)
     return ISO_FAIL_ARGUMENT(ctx, "axis", "axis %lld is not 1, 2 or 3", axis + 1LL);
 }
 
-/* An orbit in the plane n_a = 0 stays in it, unless a potential beyond the level moves it. */
-iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis)
-{
-    const bool moved = iso_effects_pull(&orbit->effects) && !iso_effects_are_free(&orbit->effects);
-    if (!iso_section_is_rotation(y, axis) || moved) return ISO_OK;
-    return ISO_FAIL_INPUT(ctx, "axis", "this orbit is " ISO_NEVER_CROSSES, axis + 1, axis + 1);
-}
-
-/* Only where nothing acts but a level, orbits obey gamma_a'' = -W^2 gamma_a. */
-void iso_crossings_find_section(const iso_crossings *c, const iso_orbit *orbit, iso_crossing_orbit *o)
-{
-    const iso_point_motion motion = iso_orbit_motion(orbit);
-    double W[2];
-    o->bound[0] = o->bound[1] = NAN;
-    o->axis = -1;
-    if (c->options.kind != ISO_SECTION_AXIS) return;
-    o->axis = c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(motion) : c->options.axis;
-    if (!iso_effects_are_free(&orbit->effects) || !iso_orbit_has_twin(orbit)) return;
-    iso_section_bounds(motion, o->axis, W);
-    o->bound[0] = 2 * ISO_PI / W[1];
-    o->bound[1] = 2 * ISO_PI / W[0];
-}
-
-/* The largest Omega^2 = (k^4/det J^2) [ 2 E q^(2+1/k) + (2 eps/k) q (J_a - (1-k) q) ] for q between min J and max J,
- * as the largest of the first term plus the largest of the second. */
-static double fastest(iso_point_motion m, int axis)
-{
-    const iso_params *p = m.p;
-    const double k = p->k, least = min3(p->J), most = max3(p->J), top = p->J[axis] / (2 * (1 - k));
-    const double q[3] = {least, most, top > least && top < most ? top : most};
-    double square = 0, of_level = 0;
-    for (int i = 0; i < 3; i++) {
-        square = fmax(square, 2 * m.eps / p->det_J * (k * k * k / p->det_J) * q[i] * (p->J[axis] - (1 - k) * q[i]));
-        if (m.energy > 0) of_level = fmax(of_level, 2 * m.energy * pow(q[i], 2 + 1 / k) * pow(k * k / p->det_J, 2));
-    }
-    return sqrt(square + of_level);
-}
-
-/* The largest h + E k^2/det J q^(1/k), which is (det J/(2 k^2)) |gamma_t|^2/q^2 */
-static double most_kinetic(iso_point_motion m)
-{
-    const iso_params *p = m.p;
-    double most = 0;
-    if (m.energy == 0) return iso_energy(p, m.eps);
-    for (int i = 0; i < 3; i++) most = fmax(most, iso_energy(p, m.eps + m.energy * pow(p->J[i], 1 / p->k)));
-    return most;
-}
-
 /* The number of parts in a unit of the variable of the series, so that gamma_a has at most one zero in each. A zero
  * shows by the signs of n_a at the ends of a part. In s, a part of length x is short enough if W x <= pi, by Sturm.
  * In t, let r = ds/dt ~ q^(1+1/(2k)) and Omega = W r. Lyapunov's inequality 4 < (s2 - s1) int W^2 ds between two
@@ -120,16 +61,28 @@ static double most_kinetic(iso_point_motion m)
  *     4 < int r dt int (Omega^2/r) dt <= Omega_max^2 x^2 (rho + 1)^2/(4 rho),    rho = r_max/r_min in the part
  *
  * q changes at a rate of |q_t/q| <= B = (J_max - J_min) (2 h k^2/det J)^(1/2), on a level E with the largest
- * h + E k^2/det J q^(1/k) in the place of h. So rho <= e if x B |1 + 1/(2k)| <= 1. Then two zeros are more than
- * 1.77/Omega_max apart. */
+ * h + E k^2/det J q^(1/k), which is (det J/(2 k^2)) |gamma_t|^2/q^2, in the place of h. So rho <= e if
+ * x B |1 + 1/(2k)| <= 1. Then two zeros are more than 1.77/Omega_max apart. Omega_max is the largest of
+ *
+ *     Omega^2 = (k^4/det J^2) [ 2 E q^(2+1/k) + (2 eps/k) q (J_a - (1-k) q) ],    q between min J and max J,
+ *
+ * as the largest of the first term plus the largest of the second. */
 double iso_crossings_zeros(iso_point_motion m, int axis, iso_clock variable)
 {
     const iso_params *p = m.p;
     double W[2];
     iso_section_bounds(m, axis, W);
     if (variable == ISO_CLOCK_S) return W[1] / ISO_PI;
-    const double h = most_kinetic(m), turn = sqrt(2 * h * p->k * p->k / p->det_J) * (max3(p->J) - min3(p->J));
-    return fmax(turn * fabs(1 + 1 / (2 * p->k)), fastest(m, axis) / 1.77);
+    const double k = p->k, least = min3(p->J), most = max3(p->J), top = p->J[axis] / (2 * (1 - k));
+    const double q[3] = {least, most, top > least && top < most ? top : most};
+    double square = 0, of_level = 0, h = m.energy == 0 ? iso_energy(p, m.eps) : 0;
+    for (int i = 0; i < 3; i++) {
+        square = fmax(square, 2 * m.eps / p->det_J * (k * k * k / p->det_J) * q[i] * (p->J[axis] - (1 - k) * q[i]));
+        if (m.energy > 0) of_level = fmax(of_level, 2 * m.energy * pow(q[i], 2 + 1 / k) * pow(k * k / p->det_J, 2));
+        if (m.energy != 0) h = fmax(h, iso_energy(p, m.eps + m.energy * pow(p->J[i], 1 / k)));
+    }
+    const double turn = sqrt(2 * h * k * k / p->det_J) * (most - least);
+    return fmax(turn * fabs(1 + 1 / (2 * k)), sqrt(square + of_level) / 1.77);
 }
 
 bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance)
@@ -140,29 +93,12 @@ bool iso_crossings_apart(const double bound[2], bool least, double apart, double
     return !least || apart >= bound[0] * (1 - part) - rounding;
 }
 
-/* By Sturm's comparison. A larger distance means a skipped crossing, a smaller one a crossing found twice. A start on
- * the section is on it up to ISO_ON_SECTION. */
-iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossing_orbit *o,
-                              const iso_orbit *orbit, double s)
-{
-    const bool least = o->count > 0 || (o->begins_on_it && o->upwards);
-    const double loose = o->count == 0 ? ISO_ON_SECTION : 0;
-    const double bound[2] = {(1 - loose) * o->bound[0], (1 + loose) * o->bound[1]};
-    if (iso_crossings_apart(bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;
-    const double unit = orbit->unit_clock[ISO_CLOCK_S];
-    return ISO_FAIL_NUMERICAL(ctx,
-                              "crossings %zu and %zu of n_%d = 0 are %.10g apart in s, not between %.10g and %.10g: "
-                              "the computation is wrong there; take a smaller tolerance",
-                              o->count, o->count + 1, o->axis + 1, (s - o->s) * unit, bound[0] * unit,
-                              bound[1] * unit);
-}
-
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
-/* The chart needs only the directions of M and gamma. M has the direction of J^(1/2) omega (for k < 0 the opposite
- * one), and gamma that of J^(-1/2) n (18). So a ball without a twin has a chart as well. */
-void iso_crossings_point(const iso_params *p, iso_model_kind model, const double y[ISO_STATE],
-                         double point[ISO_STATE])
+/* The directions of (M, gamma) at a state; the lengths differ. The chart needs no more. M has the direction of
+ * J^(1/2) omega (for k < 0 the opposite one), and gamma that of J^(-1/2) n (18). So a ball without a twin has a chart
+ * as well. point and y may be one array. */
+static void to_point(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], double point[ISO_STATE])
 {
     copy(y, point, ISO_STATE);
     for (int i = 0; i < 3 && model == ISO_BALL; i++) {
@@ -171,20 +107,67 @@ void iso_crossings_point(const iso_params *p, iso_model_kind model, const double
     }
 }
 
-/* By the directions of M and gamma, also of a ball: so both models agree about a start. gamma_a oscillates at the
- * rate of about |M|. So gamma_a'/|M| has the size of gamma_a. */
-bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis,
-                              bool *upwards)
+/* A start is on the section where n_a is 0 up to 1e-8 radians of its oscillation: it is no crossing, and an event there
+ * is not counted. Without this margin ball and point, or lanes and single orbits, would disagree if n_a is 0 up to
+ * rounding. */
+#define ON_SECTION 1e-8
+
+/* Only where nothing acts but a level, orbits obey gamma_a'' = -W^2 gamma_a, which bounds the distance of crossings.
+ * The place of the start is found by the directions of M and gamma, also of a ball: so both models agree about it.
+ * gamma_a oscillates at the rate of about |M|. So gamma_a'/|M| has the size of gamma_a. If it falls at the start, the
+ * first crossing comes after half an oscillation. An orbit in the plane n_a = 0 stays in it, unless a potential beyond
+ * the level moves it. */
+iso_status iso_crossings_begin(iso_context *ctx, const iso_crossings *c, const iso_params *p, const iso_orbit *orbit,
+                               const double y[ISO_STATE], iso_crossing_orbit *o)
 {
-    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    double point[ISO_STATE];
+    const iso_point_motion motion = iso_orbit_motion(orbit);
+    const bool is_free = iso_effects_are_free(&orbit->effects), moved = iso_effects_pull(&orbit->effects) && !is_free;
+    double point[ISO_STATE], W[2];
+    o->bound[0] = o->bound[1] = NAN;
+    o->axis = -1;
+    if (c->options.kind != ISO_SECTION_AXIS) return ISO_OK;
+    const int a = c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(motion) : c->options.axis;
+    o->axis = a;
+    if (is_free && iso_orbit_has_twin(orbit)) {
+        iso_section_bounds(motion, a, W);
+        o->bound[0] = 2 * ISO_PI / W[1];
+        o->bound[1] = 2 * ISO_PI / W[0];
+    }
     for (int i = 0; i < 3; i++) point[i] = y[i] / largest(y), point[3 + i] = y[3 + i];
-    iso_crossings_point(p, model, point, point);
-    const double *M = point, *gamma = point + 3;
-    const double pace = norm(M), rise = gamma[b] * M[c] - gamma[c] * M[b];
-    const double swing = hypot(pace * gamma[axis], rise);
-    *upwards = rise >= 0;
-    return fabs(pace * gamma[axis]) <= ISO_ON_SECTION * swing;
+    to_point(p, iso_crossings_model(orbit), point, point);
+    const double *M = point, *gamma = point + 3, pace = norm(M);
+    const double rise = gamma[(a + 1) % 3] * M[(a + 2) % 3] - gamma[(a + 2) % 3] * M[(a + 1) % 3];
+    o->upwards = rise >= 0;
+    o->begins_on_it = fabs(pace * gamma[a]) <= ON_SECTION * hypot(pace * gamma[a], rise);
+    if (!iso_section_is_rotation(y, a) || moved) return ISO_OK;
+    return ISO_FAIL_INPUT(ctx, "axis", "this orbit is " ISO_NEVER_CROSSES, a + 1, a + 1);
+}
+
+/* The bounds are by Sturm's comparison. A larger distance means a skipped crossing, a smaller one a crossing found
+ * twice. A start on the section is on it up to ON_SECTION. */
+iso_status iso_crossings_add(iso_context *ctx, const iso_crossings *c, const iso_orbit *orbit,
+                             const double clock[ISO_CLOCKS], double s, const double y[ISO_STATE],
+                             iso_crossing_orbit *o, iso_crossing *to)
+{
+    const bool least = o->count > 0 || (o->begins_on_it && o->upwards), twin = iso_orbit_has_twin(orbit);
+    const double loose = o->count == 0 ? ON_SECTION : 0, unit = orbit->unit_clock[ISO_CLOCK_S];
+    const double bound[2] = {(1 - loose) * o->bound[0], (1 + loose) * o->bound[1]};
+    double point[ISO_STATE];
+    if (!iso_crossings_apart(bound, least, s - o->s, s, c->options.tolerance))
+        return ISO_FAIL_NUMERICAL(ctx,
+                                  "crossings %zu and %zu of n_%d = 0 are %.10g apart in s, not between %.10g and "
+                                  "%.10g: the computation is wrong there; take a smaller tolerance",
+                                  o->count, o->count + 1, o->axis + 1, (s - o->s) * unit, bound[0] * unit,
+                                  bound[1] * unit);
+    iso_crossing_blank(to);
+    for (int k = 0; k < ISO_CLOCKS; k++) to->clock[k] = k == ISO_CLOCK_T || twin ? clock[k] : NAN;
+    if (o->axis >= 0) {
+        to_point(&orbit->units.own, iso_crossings_model(orbit), y, point);
+        iso_section_chart(o->axis, point, &to->l, &to->x);
+    }
+    o->s = s;
+    o->count++;
+    return ISO_OK;
 }
 
 void iso_crossing_blank(iso_crossing *crossing)
@@ -193,35 +176,30 @@ void iso_crossing_blank(iso_crossing *crossing)
     for (size_t i = 0; i < sizeof *crossing / sizeof *number; i++) number[i] = NAN;
 }
 
-/* What the caller does not ask for is NaN. */
-void iso_crossings_give(const iso_crossings *c, const iso_sample *from, iso_sample *to)
+void iso_crossings_hide(const iso_crossings *c, iso_sample *s)
 {
-    *to = *from;
-    for (int i = 0; i < ISO_STATE && c->options.shown == ISO_SHOW_BALL; i++) to->point[i] = NAN;
-    for (int i = 0; i < ISO_STATE && c->options.shown == ISO_SHOW_POINT; i++) to->ball[i] = NAN;
-    for (int i = 0; i < ISO_EFFECT_COLUMNS && c->options.shown == ISO_SHOW_POINT; i++) to->effect[i] = NAN;
+    for (int i = 0; i < ISO_STATE && c->options.shown == ISO_SHOW_BALL; i++) s->point[i] = NAN;
+    for (int i = 0; i < ISO_STATE && c->options.shown == ISO_SHOW_POINT; i++) s->ball[i] = NAN;
+    for (int i = 0; i < ISO_EFFECT_COLUMNS && c->options.shown == ISO_SHOW_POINT; i++) s->effect[i] = NAN;
 }
 
 /* The start is made in own units, in which powers of q fit a double. */
 iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x)
 {
-    const iso_units *units = iso_orbit_units(orbit);
     const double eps = iso_orbit_coupling(orbit);
-    double point[ISO_STATE];
     iso_start start = {.model = model, .eps = isnormal(eps) ? eps : (double)NAN};
     const bool ball = model == ISO_BALL;
-    iso_section_point(iso_orbit_motion(orbit), axis, l, x, point);
-    if (ball)
-        iso_point_to_ball(&units->own, point, start.y);
-    else
-        copy(point, start.y, ISO_STATE);
-    scale(start.y, ball ? units->w : iso_unit(units, iso_system_point.fast_dimension));
+    iso_section_point(iso_orbit_motion(orbit), axis, l, x, start.y);
+    if (ball) iso_point_to_ball(&orbit->units.own, start.y, start.y);
+    scale(start.y, ball ? orbit->units.w : orbit->unit_M);
     return start;
 }
 
-void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_status status)
+void iso_crossings_keep(iso_crossings *c, const iso_crossings_task *t, const iso_context *ctx, size_t i,
+                        iso_status status)
 {
     iso_crossing_orbit *o = &c->orbit[i];
+    t->status[i] = status;
     if (status == ISO_OK || status == ISO_STOPPED) return;
     o->status = status;
     o->why = strdup(iso_context_message(ctx));

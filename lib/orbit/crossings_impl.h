@@ -11,8 +11,6 @@
 #include "orbit/crossings.h"
 #include "orbit/orbit_impl.h"
 
-#define ISO_ON_SECTION 1e-8 /* how far from it, in radians of the oscillation of n_a, a start is on the section */
-
 /* One orbit: where it is, and the bounds between its crossings. In own units of the orbit. */
 typedef struct iso_crossing_orbit {
     iso_orbit *alone; /* the orbit, if it is followed alone; NULL: not begun                                     */
@@ -51,45 +49,43 @@ typedef struct iso_crossings_task {
 /* iso_crossings_go with crossing[stride i + j]. */
 iso_status iso_crossings_go_apart(iso_crossings *c, const iso_crossings_task *task);
 
+/* Whether orbit i is to go on, and has not failed. */
+static inline bool iso_crossings_wants(const iso_crossings *c, const iso_crossings_task *t, size_t i)
+{
+    return (!t->wanted || t->wanted[i]) && c->orbit[i].status == ISO_OK;
+}
+
 /* Refuses options: the errors of iso_crossings_create but ISO_NO_MEMORY. */
 iso_status iso_crossings_check(iso_context *ctx, const iso_crossings_options *options);
 
-/* Follows the wanted orbits that lanes can hold. For each of them taken[i] becomes true, and done[i], status[i], the
- * crossings and samples are filled in. Errors: ISO_NO_MEMORY, ISO_STOPPED; failures of orbits are in status[i]. */
-iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *task, bool taken[]);
-void iso_crossings_free_lane(struct iso_crossings_lane *lane);
+/* Follows the wanted orbits that lanes can hold; then all others, each by itself. done[], status[], the crossings and
+ * samples are filled in. Errors: ISO_NO_MEMORY, ISO_STOPPED; failures of orbits are in status[i]. */
+iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *task);
+iso_status iso_crossings_alone(iso_crossings *c, const iso_crossings_task *task);
 
-/* Keeps a failure of orbit i, with its message, which is in ctx. ISO_STOPPED is not kept: the orbit can go on. */
-void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_status status);
-
-/* Follows orbit i alone to its next crossings. Errors: those of one orbit, see iso_crossings_go. The message is in
- * the context of the orbit, whose monitor is asked before each crossing. */
-iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_crossing crossing[],
-                                  iso_sample sample[], size_t *done);
+/* Sets status[i]. Keeps a failure of orbit i, with its message, which is in ctx; not ISO_STOPPED: it can go on. */
+void iso_crossings_keep(iso_crossings *c, const iso_crossings_task *task, const iso_context *ctx, size_t i,
+                        iso_status status);
 
 /* n_axis has at most one zero within 1/(this number) of `variable`: the clock t or s. Own units. */
 double iso_crossings_zeros(iso_point_motion m, int axis, iso_clock variable);
-
-/* Whether a state (omega, n) or (M, gamma) of the ball or the point lies on the section: n_a = 0 up to 1e-8 of a
- * radian of its oscillation. Such a start is no crossing, and an event there is not counted. Without this margin ball
- * and point, or lanes and single orbits, would disagree if n_a is 0 up to rounding. *upwards: n_a increases; else the
- * first crossing comes after half an oscillation. */
-bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis,
-                              bool *upwards);
 
 /* Whether the distance `apart` in s of two crossings of a free orbit is within the bounds, up to rounding. s: of the
  * second crossing. NaN bounds allow everything. `least` false: the first is no crossing, so only the upper bound
  * counts. */
 bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance);
 
-/* The first way to prepare orbit i. Without an isomorphism there are no other clocks. */
-iso_way iso_crossings_way(const iso_crossings *c, size_t i);
+/* The first attempt to prepare orbit i. Without an isomorphism there are no other clocks. */
+iso_attempt iso_crossings_attempt(const iso_crossings *c, size_t i);
 
 /* The options with which orbit i is created. */
-iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_way way);
+iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_attempt attempt);
 
 /* The model that an orbit integrates. */
-iso_model_kind iso_crossings_model(const iso_orbit *orbit);
+static inline iso_model_kind iso_crossings_model(const iso_orbit *orbit)
+{
+    return orbit->options.backend == ISO_BACKEND_POINT ? ISO_POINT : ISO_BALL;
+}
 
 /* Refuses an axis that is neither ISO_AXIS_AUTO nor 0 to 2: ISO_BAD_ARGUMENT about "axis". */
 iso_status iso_crossings_check_axis(iso_context *ctx, int axis);
@@ -99,22 +95,19 @@ iso_status iso_crossings_check_axis(iso_context *ctx, int axis);
     "the rotation about axis %d, in the plane n_%d = 0 itself: it is the boundary of the section, and never "        \
     "crosses it"
 
-/* Refuses an orbit that lies, and stays, in the plane n_axis = 0 itself. */
-iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis);
+/* Sets o->axis and o->bound of an orbit that is prepared (NaN if there are no bounds), and whether its start y, (omega,
+ * n) or (M, gamma), lies on the section. Refuses an orbit that lies, and stays, in the plane n_axis = 0 itself. */
+iso_status iso_crossings_begin(iso_context *ctx, const iso_crossings *c, const iso_params *p, const iso_orbit *orbit,
+                               const double y[ISO_STATE], iso_crossing_orbit *o);
 
-/* Sets o->axis and o->bound of an orbit that is prepared; NaN if there are no bounds. */
-void iso_crossings_find_section(const iso_crossings *c, const iso_orbit *orbit, iso_crossing_orbit *o);
+/* Fills in clocks and chart of the next crossing: `clock` in the caller's units, s in own units. y: (omega, n) or
+ * (M, gamma), in any units. Errors: ISO_NUMERICAL, if it is not within the bounds. */
+iso_status iso_crossings_add(iso_context *ctx, const iso_crossings *c, const iso_orbit *orbit,
+                             const double clock[ISO_CLOCKS], double s, const double y[ISO_STATE],
+                             iso_crossing_orbit *o, iso_crossing *to);
 
-/* Checks the crossing at s against the bounds. Errors: ISO_NUMERICAL. */
-iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossing_orbit *o,
-                              const iso_orbit *orbit, double s);
-
-/* The directions of (M, gamma) at a state of the model; the lengths differ. point and y may be one array. */
-void iso_crossings_point(const iso_params *p, iso_model_kind model, const double y[ISO_STATE],
-                         double point[ISO_STATE]);
-
-/* The sample that the caller asks for. */
-void iso_crossings_give(const iso_crossings *c, const iso_sample *from, iso_sample *to);
+/* Makes NaN of what the caller does not ask for. */
+void iso_crossings_hide(const iso_crossings *c, iso_sample *sample);
 
 /* NaN in every number. */
 void iso_crossing_blank(iso_crossing *crossing);
@@ -123,7 +116,7 @@ void iso_crossing_blank(iso_crossing *crossing);
  * level. */
 iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x);
 
-/* Why orbit i has failed, in words without its number. */
+/* Why orbit i has failed: the message without its number. */
 const char *iso_crossings_why(const iso_crossings *c, size_t i);
 
 #endif

@@ -45,49 +45,40 @@ bool iso_columns_have_beginning(const int columns[ISO_TRAJECTORY_COLUMNS], const
     return has;
 }
 
-/* The text of an effect that the scene writes. */
-static iso_status describe_expressions(iso_context *ctx, iso_record *r, const iso_effects *effects, iso_effect_id id)
-{
-    const iso_effect *effect = iso_effect_list[id];
-    char key[ISO_NAME_SIZE];
-    for (int i = 0; effect->expressions && effect->expressions[i]; i++) {
-        if (!iso_written_has(effects, id, i)) continue;
-        iso_effect_line(key, effect, effect->expressions[i]);
-        ISO_TRY(iso_record_set(ctx, r, key, effects->written[effect->written].expression[i]));
-    }
-    return ISO_OK;
-}
-
 iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;
     char names[256] = "", key[ISO_NAME_SIZE];
-    iso_status status = ISO_OK;
-    for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++) {
+    iso_effect_number n;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
         if (!effects->on[e] || e == ISO_CLOCK) continue;
         const size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, "%s%s", used ? " " : "", iso_effect_list[e]->name);
-        status = describe_expressions(ctx, r, effects, e);
-        iso_effect_number n;
-        for (int i = 0; status == ISO_OK && iso_effect_number_at(effects, e, i, &n); i++) {
+        snprintf(names + used, sizeof names - used, "%s%s", used ? " " : "", effect->name);
+        for (int i = 0; effect->expressions && effect->expressions[i]; i++) {
+            if (!iso_written_has(effects, e, i)) continue;
+            iso_effect_line(key, effect, effect->expressions[i]);
+            ISO_TRY(iso_record_set(ctx, r, key, effects->written[effect->written].expression[i]));
+        }
+        for (int i = 0; iso_effect_number_at(effects, e, i, &n); i++) {
             const double *x = iso_effect_values(effects, e, &n);
             if (n.scene_only) continue;
-            iso_effect_line(key, iso_effect_list[e], n.name);
-            status = n.kind == ISO_NUMBER_WORD ? iso_record_set(ctx, r, key, n.word((int)x[0]))
-                                               : iso_record_set_numbers(ctx, r, key, (size_t)n.count, x);
+            iso_effect_line(key, effect, n.name);
+            ISO_TRY(n.kind == ISO_NUMBER_WORD ? iso_record_set(ctx, r, key, n.word((int)x[0]))
+                                              : iso_record_set_numbers(ctx, r, key, (size_t)n.count, x));
         }
     }
-    return status == ISO_OK && *names ? iso_record_set(ctx, r, "effects", names) : status;
+    return *names ? iso_record_set(ctx, r, "effects", names) : ISO_OK;
 }
 
 iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *model, const iso_params *p,
                                const iso_orbit *orbit)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_status status = iso_record_set(ctx, r, "model", model);
-    if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "k", 1, &p->k);
-    if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "J", 3, p->J);
-    if (status != ISO_OK || !orbit) return status;
+    ISO_TRY(iso_record_set(ctx, r, "model", model));
+    ISO_TRY(iso_record_set_numbers(ctx, r, "k", 1, &p->k));
+    ISO_TRY(iso_record_set_numbers(ctx, r, "J", 3, p->J));
+    if (!orbit) return ISO_OK;
     const bool twin = iso_orbit_has_twin(orbit);
     const double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
     iso_effects effects = iso_orbit_effects(orbit);
@@ -95,25 +86,24 @@ iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *mode
     if (strcmp(model, iso_model_kind_name(ISO_POINT)) == 0) effects = iso_effects_acting(&effects);
     const double c = iso_effects_level(&effects);
     iso_effects_set_level(&effects, iso_effects_have_level(&effects) && isnormal(c), c);
-    if (iso_effects_need_D(&effects)) status = iso_record_set_numbers(ctx, r, "D", 1, &p->D);
-    if (status == ISO_OK && iso_effects_need_radius(&effects) && p->body.radius > 0)
-        status = iso_record_set_numbers(ctx, r, "radius", 1, &p->body.radius);
-    if (status == ISO_OK && twin && isnormal(h)) status = iso_record_set_numbers(ctx, r, "h", 1, &h);
-    if (status == ISO_OK && twin && isnormal(eps)) status = iso_record_set_numbers(ctx, r, "eps", 1, &eps);
-    return status == ISO_OK ? iso_record_describe_effects(ctx, r, &effects) : status;
+    if (iso_effects_need_D(&effects)) ISO_TRY(iso_record_set_numbers(ctx, r, "D", 1, &p->D));
+    if (iso_effects_need_radius(&effects) && p->body.radius > 0)
+        ISO_TRY(iso_record_set_numbers(ctx, r, "radius", 1, &p->body.radius));
+    if (twin && isnormal(h)) ISO_TRY(iso_record_set_numbers(ctx, r, "h", 1, &h));
+    if (twin && isnormal(eps)) ISO_TRY(iso_record_set_numbers(ctx, r, "eps", 1, &eps));
+    return iso_record_describe_effects(ctx, r, &effects);
 }
 
 iso_status iso_record_params(iso_context *ctx, const iso_record *r, iso_params *p)
 {
     ISO_DEFAULT_ARITHMETIC;
-    double k, J[3];
+    double k, J[3], D;
     iso_status status;
     const bool has_k = iso_record_get_numbers(ctx, r, "k", 1, &k, &status);
     if (status != ISO_OK) return status;
     const bool has_J = iso_record_get_numbers(ctx, r, "J", 3, J, &status);
     if (status != ISO_OK) return status;
     if (has_k && has_J) {
-        double D;
         ISO_TRY(iso_params_reduced(ctx, k, J, p));
         if (iso_record_get_numbers(ctx, r, "D", 1, &D, &status)) status = iso_params_set_D(ctx, D, p);
         if (status == ISO_OK) iso_record_get_numbers(ctx, r, "radius", 1, &p->body.radius, &status);
@@ -150,8 +140,8 @@ static const char *name_of_line(const iso_effect *effect, const char *key)
     return strncmp(key, effect->name, length) == 0 && key[length] == '.' ? key + length + 1 : NULL;
 }
 
-/* Numbers of an effect that the line `effects` does not name, or columns of one that acts: the line is lost or
- * damaged. */
+/* Refuses numbers of an effect that the line `effects` does not name, and columns of one that acts: the line is lost
+ * or damaged. */
 static iso_status check_unnamed(iso_context *ctx, const iso_record *r, const iso_effect *effect)
 {
     const char *column = effect->observes || !effect->columns ? NULL : effect->columns->column[0];
@@ -163,13 +153,6 @@ static iso_status check_unnamed(iso_context *ctx, const iso_record *r, const iso
     if (!column || iso_record_find(r, column) < 0) return ISO_OK;
     return ISO_FAIL_INPUT(ctx, "effects", "there is a column '%s', but no line '# effects' that names '%s'", column,
                           effect->name);
-}
-
-static iso_status check_named(iso_context *ctx, const iso_record *r, const iso_effects *effects)
-{
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        if (!effects->on[e]) ISO_TRY(check_unnamed(ctx, r, iso_effect_list[e]));
-    return ISO_OK;
 }
 
 static iso_status missing_line(iso_context *ctx, const iso_effect *effect, const char *key)
@@ -201,33 +184,29 @@ static iso_status read_text(iso_context *ctx, const iso_record *r, iso_effect_id
     return ISO_OK;
 }
 
-/* A number, or a word. */
-static bool read_line(iso_context *ctx, const iso_record *r, const char *key, const iso_effect_number *n, double x[],
-                      iso_status *status)
-{
-    const char *text = iso_record_get(r, key), *word;
-    *status = ISO_OK;
-    if (n->kind != ISO_NUMBER_WORD) return iso_record_get_numbers(ctx, r, key, (size_t)n->count, x, status);
-    if (!text) return false;
-    char suggested[ISO_SUGGEST_SIZE];
-    for (int i = 0; (word = n->word(i)); i++)
-        if (strcmp(text, word) == 0) return *x = i, true;
-    *status = ISO_FAIL_INPUT(ctx, key, "'%s' is '%s'; %s", key, text, iso_suggest_word(suggested, text, n->word));
-    return false;
-}
-
 static iso_status read_effect(iso_context *ctx, const iso_record *r, iso_effect_id e, iso_effects *effects)
 {
     const iso_effect *effect = iso_effect_list[e];
-    char key[ISO_NAME_SIZE];
+    char key[ISO_NAME_SIZE], suggested[ISO_SUGGEST_SIZE];
     iso_status status;
     effects->on[e] = true;
     if (effect->expressions) ISO_TRY(read_text(ctx, r, e, effects));
     for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
         if (n->scene_only || n->hidden) continue;
         iso_effect_line(key, effect, n->name);
-        if (read_line(ctx, r, key, n, iso_effect_values(effects, e, n), &status)) continue;
-        return status != ISO_OK ? status : missing_line(ctx, effect, key);
+        const char *text = iso_record_get(r, key), *word;
+        double *x = iso_effect_values(effects, e, n);
+        if (!text) return missing_line(ctx, effect, key);
+        if (n->kind != ISO_NUMBER_WORD) {
+            if (!iso_record_get_numbers(ctx, r, key, (size_t)n->count, x, &status)) return status;
+            continue;
+        }
+        int i = 0;
+        while ((word = n->word(i)) && strcmp(text, word) != 0) i++;
+        if (!word)
+            return ISO_FAIL_INPUT(ctx, key, "'%s' is '%s'; %s", key, text,
+                                  iso_suggest_word(suggested, text, n->word));
+        *x = i;
     }
     return ISO_OK;
 }
@@ -248,7 +227,9 @@ iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects
                                   iso_suggest_word(suggested, name, iso_effect_name));
         ISO_TRY(read_effect(ctx, r, e, effects));
     }
-    return check_named(ctx, r, effects);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        if (!effects->on[e]) ISO_TRY(check_unnamed(ctx, r, iso_effect_list[e]));
+    return ISO_OK;
 }
 
 bool iso_record_up(iso_context *ctx, const iso_record *r, double up[3])
@@ -271,28 +252,22 @@ bool iso_record_up(iso_context *ctx, const iso_record *r, double up[3])
 
 /* Numbers that turn with the ball: an orbit that starts at this row starts with the vertical, or quaternion, of the
  * row. */
-static iso_status turn_number(iso_context *ctx, const double row[], const iso_record *r, iso_effect_id id,
-                              const iso_effect_number *n, double x[])
+static iso_status turn_effects(iso_context *ctx, const iso_record *r, const double row[], iso_effects *effects)
 {
     int columns[ISO_EFFECT_NUMBERS];
     const char *missing;
     const iso_effect_column *group;
-    iso_effect_group(id, n->turns_with, &group);
-    if (!iso_record_find_all(r, (size_t)n->count, group->column, columns, &missing))
-        return ISO_FAIL_INPUT(ctx, "columns", "the trajectory has no column '%s', without which '%s' is not known",
-                              missing, iso_effect_list[id]->name);
-    for (int i = 0; i < n->count; i++) x[i] = row[columns[i]];
-    return ISO_OK;
-}
-
-static iso_status turn_effects(iso_context *ctx, const iso_record *r, const double row[], iso_effects *effects)
-{
-    iso_status status = ISO_OK;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; effects->on[e] && n && n->name; n++)
-            if (status == ISO_OK && n->turns_with)
-                status = turn_number(ctx, row, r, e, n, iso_effect_values(effects, e, n));
-    return status;
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; effects->on[e] && n && n->name; n++) {
+            if (!n->turns_with) continue;
+            iso_effect_group(e, n->turns_with, &group);
+            if (!iso_record_find_all(r, (size_t)n->count, group->column, columns, &missing))
+                return ISO_FAIL_INPUT(ctx, "columns",
+                                      "the trajectory has no column '%s', without which '%s' is not known", missing,
+                                      iso_effect_list[e]->name);
+            for (int i = 0; i < n->count; i++) iso_effect_values(effects, e, n)[i] = row[columns[i]];
+        }
+    return ISO_OK;
 }
 
 /* "; --row-tolerance X takes it", X the next power of ten; "" where no tolerance does. */
@@ -304,39 +279,28 @@ static const char *advice(double off, char text[64])
     return text;
 }
 
-static iso_status refuse_length(iso_context *ctx, iso_model_kind model, double length, double tolerance)
-{
-    char text[64];
-    return ISO_FAIL_INPUT(ctx, "", "|%s| = %.10g: a unit vector to %g is expected%s",
-                          model == ISO_BALL ? "n" : "gamma", length, tolerance, advice(fabs(length - 1), text));
-}
-
-static iso_status refuse_spin(iso_context *ctx, iso_model_kind model, double along, double tolerance)
-{
-    char text[64];
-    const bool ball = model == ISO_BALL;
-    return ISO_FAIL_INPUT(
-        ctx, "", "%s has a part %.3g of its size along %s: this is no %s (a right angle to %g is expected%s)",
-        ball ? "omega" : "M", along, ball ? "n" : "gamma", ball ? "rubber ball's motion" : "point on a sphere",
-        tolerance, advice(fabs(along), text));
-}
-
 iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, const double y[ISO_STATE], const double *eps,
                               bool twists, double tolerance, iso_start *start)
 {
+    const bool ball = model == ISO_BALL;
+    char text[64];
     double unit[3];
     copy(y + 3, unit, 3);
     const double size = largest(y), length = norm(unit);
     const bool is_near = fabs(length - 1) <= tolerance;
     const double exact = is_near ? 1 : hypot(hypot(unit[0], unit[1]), unit[2]); /* squares may not fit a double */
-    if (isfinite(exact) && exact > 0 && !is_near) return refuse_length(ctx, model, exact, tolerance);
+    if (isfinite(exact) && exact > 0 && !is_near)
+        return ISO_FAIL_INPUT(ctx, "", "|%s| = %.10g: a unit vector to %g is expected%s", ball ? "n" : "gamma", exact,
+                              tolerance, advice(fabs(exact - 1), text));
     if (is_near) scale(unit, 1 / length);
     const double along = size > 0 ? y[0] / size * unit[0] + y[1] / size * unit[1] + y[2] / size * unit[2] : 0;
-    const iso_status status = model == ISO_BALL
-                                  ? iso_start_ball(ctx, y, unit, twists ? ISO_SPIN_KEEP : ISO_SPIN_REMOVE, start)
-                                  : iso_start_point(ctx, y, unit, eps, true, start);
-    if (status != ISO_OK || twists || fabs(along) <= tolerance) return status;
-    return refuse_spin(ctx, model, along, tolerance);
+    ISO_TRY(ball ? iso_start_ball(ctx, y, unit, twists ? ISO_SPIN_KEEP : ISO_SPIN_REMOVE, start)
+                 : iso_start_point(ctx, y, unit, eps, true, start));
+    if (twists || fabs(along) <= tolerance) return ISO_OK;
+    return ISO_FAIL_INPUT(
+        ctx, "", "%s has a part %.3g of its size along %s: this is no %s (a right angle to %g is expected%s)",
+        ball ? "omega" : "M", along, ball ? "n" : "gamma", ball ? "rubber ball's motion" : "point on a sphere",
+        tolerance, advice(fabs(along), text));
 }
 
 iso_status iso_record_start_at(iso_context *ctx, const iso_record *r, const iso_params *p, iso_model_kind model,

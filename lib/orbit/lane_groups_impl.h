@@ -18,7 +18,7 @@ bool iso_lanes_in_groups(iso_pool_worker *w, const iso_lane_build *code, double 
  * have equations for series, within their room. */
 bool iso_lanes_suit(const iso_orbit *orbit);
 
-/* Records ISO_NUMERICAL for a job that has an error, in words; steps: it says after how many. */
+/* Fails with ISO_NUMERICAL for a job that has an error; steps: the message says after how many. */
 iso_status iso_lanes_failed(iso_context *ctx, const iso_lane_job *job, bool steps);
 
 #endif

@@ -2,18 +2,17 @@
  *
  * The files of an orbit stand in layers. Each calls only those below it:
  *
- *     orbit.c                           prepares an orbit, follows it, gives its samples
- *     orbit_start.c, orbit_effects.c    the start in own units; the columns that effects add
- *     orbit_common.c                    numbers of a sample, and what an orbit is made of
+ *     orbit.c                          prepares an orbit and follows it
+ *     orbit_start.c, orbit_sample.c    the start in own units; samples in the caller's
+ *     orbit_common.c                   what an orbit is made of, and how it is prepared
  */
-#include <float.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
-#include "map/state.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "model/model_impl.h"
@@ -30,71 +29,76 @@ static iso_backend choose_backend(const iso_orbit_options *opt, const iso_effect
     return iso_effects_breaking(e) || iso_effects_ball_only(e) ? ISO_BACKEND_BALL : (iso_backend)start->model;
 }
 
-/* Whether a start stays where it is: then any time is known without steps. */
-static void find_rest(iso_orbit *o, const double y[])
+/* Makes an orbit empty, to be prepared: but not the texts of effects, and of formulas only what says how long they are.
+ * Clearing all 16 kB would cost time in batches. */
+static void clear(iso_orbit *o)
 {
-    o->rests = true;
-    copy(y, o->still, o->model.dim);
-    o->model.rhs(&o->model, y, o->rate);
-    for (int i = 0; i < o->model.moving; i++) o->rests = o->rests && o->rate[i] == 0;
+    iso_problem *f = &o->model.problem;
+    char *const behind_effects = (char *)(&o->effects + 1), *const behind = (char *)(f + 1);
+    memset(o, 0, offsetof(iso_orbit, effects) + offsetof(iso_effects, written));
+    memset(behind_effects, 0, (size_t)((char *)&f->effects - behind_effects));
+    memset(f->at, 0, sizeof f->at);
+    memset(&f->motion, 0, offsetof(iso_formula, late_line));
+    memset(&f->energy_formula, 0, offsetof(iso_formula, late_line));
+    memset(behind, 0, (size_t)((char *)(o + 1) - behind));
 }
 
-iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_MAX_STATE])
+iso_status iso_orbit_prepare(iso_orbit *o, iso_context *ctx, const iso_orbit_options *options, const iso_params *p,
+                             const iso_start *start, double y[ISO_MAX_STATE])
 {
     iso_orbit_options *opt = &o->options;
+    iso_model *model = &o->model;
+    iso_problem *problem = &model->problem;
     double six[ISO_STATE], size;
+    clear(o);
+    o->ctx = ctx;
+    *opt = *options;
     if (opt->effects) o->effects = *opt->effects;
     iso_start_settle(p, start, &o->effects);
-    const bool chosen = opt->backend == ISO_BACKEND_AUTO && !opt->method;
     opt->backend = choose_backend(opt, &o->effects, start);
     const bool ball = opt->backend == ISO_BACKEND_BALL, exact = opt->backend == ISO_BACKEND_EXACT;
     if ((!ball && !exact && opt->backend != ISO_BACKEND_POINT) || (int)opt->shown < 0 || opt->shown > ISO_SHOW_BOTH)
         return ISO_FAIL_ARGUMENT(
-            o->ctx, "backend", "an orbit is found by backend ball, point or exact, and shown as ball, point or both");
+            ctx, "backend", "an orbit is found by backend ball, point or exact, and shown as ball, point or both");
     if (exact && opt->method && opt->method != &iso_method_exact)
-        return ISO_FAIL_ARGUMENT(o->ctx, "method",
+        return ISO_FAIL_ARGUMENT(ctx, "method",
                                  "backend exact does not integrate: leave the method out, or take backend point");
-    iso_status status = iso_orbit_find_start(o, p, start, six);
-    if (status == ISO_NUMERICAL && chosen && opt->backend == ISO_BACKEND_POINT) {
-        opt->backend = ISO_BACKEND_BALL;
-        return iso_orbit_prepare(o, p, start, y);
+    const iso_status status = iso_orbit_find_start(o, p, start, six);
+    if (status == ISO_NUMERICAL && options->backend == ISO_BACKEND_AUTO && !opt->method && !ball) {
+        iso_orbit_options by_ball = *options;
+        by_ball.backend = ISO_BACKEND_BALL;
+        return iso_orbit_prepare(o, ctx, &by_ball, p, start, y);
     }
     if (status != ISO_OK) return status;
-    iso_problem *problem = &o->model.problem;
     problem->p = o->units.own, problem->eps = o->eps, problem->energy = o->level;
     iso_effects_copy(&o->effects, &problem->effects);
-    iso_model_complete(&o->model, o->system, opt->clock, opt->with_clock);
-    iso_model_begin(&o->model, six, y);
+    iso_model_complete(model, o->system, opt->clock, opt->with_clock);
+    iso_model_begin(model, six, y);
     if (ball) problem->energy = iso_system_ball.energy(problem, y, &size);
-    if (!opt->method) opt->method = exact ? &iso_method_exact : iso_method_auto(&o->model);
-    find_rest(o, y);
+    if (!opt->method) opt->method = exact ? &iso_method_exact : iso_method_auto(model);
+    model->rhs(model, y, o->rate);
+    copy(y, o->still, model->dim);
+    o->rests = true;
+    for (int i = 0; i < model->moving; i++) o->rests = o->rests && o->rate[i] == 0;
     return ISO_OK;
-}
-
-static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *start)
-{
-    double y[ISO_MAX_STATE];
-    ISO_TRY(iso_orbit_prepare(o, p, start, y));
-    const iso_orbit_options *opt = &o->options;
-    const iso_method_options m = {.tolerance = opt->tolerance,
-                                  .time_unit = o->unit_clock[opt->clock],
-                                  .max_steps = opt->max_steps,
-                                  .memory = opt->memory};
-    ISO_TRY(iso_integrator_create(o->ctx, opt->method, &o->model, &m, &o->integrator));
-    return iso_integrator_start(o->integrator, y);
 }
 
 iso_status iso_orbit_create(iso_context *ctx, const iso_params *p, const iso_start *start,
                             const iso_orbit_options *options, iso_orbit **orbit)
 {
     ISO_DEFAULT_ARITHMETIC;
+    const iso_orbit_options opt = options ? *options : iso_orbit_defaults(start);
+    double y[ISO_MAX_STATE];
     *orbit = NULL;
     iso_orbit *o = calloc(1, sizeof *o);
     if (!o) return iso_context_no_memory(ctx, "an orbit");
-    o->ctx = ctx;
-    o->options = iso_orbit_defaults(start);
-    if (options) o->options = *options;
-    iso_status status = set_up(o, p, start);
+    iso_status status = iso_orbit_prepare(o, ctx, &opt, p, start, y);
+    const iso_method_options m = {.tolerance = opt.tolerance,
+                                  .time_unit = o->unit_clock[opt.clock],
+                                  .max_steps = opt.max_steps,
+                                  .memory = opt.memory};
+    if (status == ISO_OK) status = iso_integrator_create(ctx, o->options.method, &o->model, &m, &o->integrator);
+    if (status == ISO_OK) status = iso_integrator_start(o->integrator, y);
     if (status != ISO_OK) return iso_orbit_free(o), status;
     *orbit = o;
     return ISO_OK;
@@ -107,114 +111,39 @@ void iso_orbit_free(iso_orbit *o)
     free(o);
 }
 
-/* --- samples ---------------------------------------------------------------------------------------------------- */
+/* --- following it ----------------------------------------------------------------------------------------------- */
 
-/* Converts `count` numbers to the caller's units. Fails if one overflows or loses digits. Numbers of a motion that
- * dies away (`vanishes`) may become 0. */
-static iso_status to_users_units(const iso_orbit *o, const char *name, double unit, bool vanishes, double x[],
-                                 int count)
-{
-    double before = 0, after = 0;
-    bool finite = true;
-    for (int i = 0; i < count; i++) {
-        before = fmax(before, fabs(x[i]));
-        if (x[i] != 0) x[i] *= unit; /* the unit may be infinite */
-        after = fmax(after, fabs(x[i]));
-        finite = finite && isfinite(x[i]);
-    }
-    if (finite && (before == 0 || vanishes || fmin(before, after) >= DBL_MIN)) return ISO_OK;
-    return ISO_FAIL_NUMERICAL(
-        o->ctx, "%s is out of the range of doubles in these units: use other units of mass, length or time", name);
-}
-
-/* The state of what is integrated as a ball's, or as a point's. */
-static void as_ball(const iso_orbit *o, const double y[], double ball[ISO_STATE])
+double iso_orbit_fastest(const iso_orbit *o)
 {
     const iso_params *own = &o->units.own;
-    if (o->system == &iso_system_ball) copy(y, ball, ISO_STATE);
-    if (o->system == &iso_system_point) iso_point_to_ball(own, y, ball);
-    if (o->system == &iso_system_point_in_t) iso_point_in_t_to_ball(own, y, ball);
-}
-
-static void as_point(const iso_orbit *o, const double y[], double point[ISO_STATE])
-{
-    const iso_params *own = &o->units.own;
-    if (o->system == &iso_system_ball) iso_ball_to_point(own, y, point);
-    if (o->system == &iso_system_point) copy(y, point, ISO_STATE);
-    if (o->system == &iso_system_point_in_t) iso_point_in_t_to_point(own, y, point);
-}
-
-/* Where powers q^(1/(2k)) are steep, they may leave the range of doubles even in own units. Elsewhere a clock is
- * about as small as the time. */
-static iso_status sample_clock(const iso_orbit *o, double time, iso_clock c, double own, iso_sample *s)
-{
-    const bool vanishes = fabs(time) < DBL_MIN; /* such a time has no digits itself */
-    s->clock[c] = own;
-    if (isnormal(own) || time == 0 || !iso_params_steep(&o->units.own))
-        return to_users_units(o, iso_clock_name(c), o->unit_clock[c], vanishes, &s->clock[c], 1);
-    return iso_orbit_too_extreme(o, iso_clock_name(c), "ask for t alone");
-}
-
-static iso_status sample_point(const iso_orbit *o, const double y[], iso_sample *s)
-{
-    as_point(o, y, s->point);
-    const bool moves = o->system != &iso_system_point && largest(y) > 0;
-    if (o->options.gamma_alone)
-        for (int i = 0; i < 3; i++) s->point[i] = NAN;
-    else if (moves && !isnormal(largest(s->point)))
-        return iso_orbit_too_extreme(o, "M", "ask for omega, n or gamma alone");
-    else
-        return to_users_units(o, "M", o->unit_M, false, s->point, 3);
-    return ISO_OK;
-}
-
-iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y[], iso_sample *s)
-{
-    iso_status status = ISO_OK;
-    iso_sample_blank(s);
-    s->clock[o->model.clock] = time;
-    for (int i = 0; status == ISO_OK && i < o->model.clocks; i++)
-        status = sample_clock(o, time, o->model.clock_of[i], y[o->model.moving + i], s);
-    if (o->options.shown != ISO_SHOW_POINT) {
-        const bool vanishes = iso_effects_stiffness(&o->model.problem) > 0;
-        as_ball(o, y, s->ball);
-        if (status == ISO_OK) status = to_users_units(o, "omega", o->units.w, vanishes, s->ball, 3);
-        if (status == ISO_OK && o->system == &iso_system_ball) status = iso_orbit_sample_effects(o, y, s);
-    }
-    if (status == ISO_OK && o->options.shown != ISO_SHOW_BALL) status = sample_point(o, y, s);
-    return status;
+    const iso_clock clock = o->model.clock;
+    return clock == ISO_CLOCK_T
+               ? 1
+               : fmax(iso_clock_rate(own, clock, min3(own->J), NULL), iso_clock_rate(own, clock, max3(own->J), NULL));
 }
 
 /* Where a model is stiff, steps of an explicit method are about as short as the time in which the fastest motion dies
  * away, however smooth the rest is. So many take seconds. */
 #define MOST_STIFF_STEPS 1e6
 
-static iso_status check_steps(const iso_orbit *o, double turns)
+/* Beyond 1e15 turns a double does not tell one part of a turn from another (and no one would live to see it). */
+static iso_status to_own_time(const iso_orbit *o, double time, double *own_time)
 {
     const iso_problem *f = &o->model.problem;
-    const double stiffness = iso_effects_stiffness(f), steps = stiffness * fmin(turns, iso_effects_moving(f));
+    const iso_clock clock = o->model.clock;
+    *own_time = time / o->unit_clock[clock];
+    const double turns = *own_time / iso_orbit_fastest(o), stiffness = iso_effects_stiffness(f);
+    if (o->rests && isfinite(*own_time)) return ISO_OK; /* what rests has no turns */
+    if (!(fabs(turns) <= 1e15))
+        return ISO_FAIL_ARGUMENT(o->ctx, "end",
+                                 "%s = %g is out of range: it is %g turns of this ball, and 1e15 can be told apart",
+                                 iso_clock_name(clock), time, turns);
+    const double steps = stiffness * fmin(turns, iso_effects_moving(f));
     if (o->options.method->implicit || !(stiffness > ISO_STIFF && steps > MOST_STIFF_STEPS)) return ISO_OK;
     return ISO_FAIL_ARGUMENT(o->ctx, "method",
                              "this model is stiff: what resists acts %.1g times as fast as the ball turns, and %s, "
                              "which is explicit, would take about %.1g steps: take bdf or bsimp",
                              stiffness, o->options.method->name, steps);
-}
-
-/* Beyond 1e15 turns a double does not tell one part of a turn from another (and no one would live to see it). */
-static iso_status to_own_time(const iso_orbit *o, double time, double *own_time)
-{
-    const iso_params *own = &o->units.own;
-    const iso_clock clock = o->model.clock;
-    const double fastest = clock == ISO_CLOCK_T ? 1
-                                                : fmax(iso_clock_rate(own, clock, min3(own->J), NULL),
-                                                       iso_clock_rate(own, clock, max3(own->J), NULL));
-    *own_time = time / o->unit_clock[clock];
-    const double turns = *own_time / fastest;
-    if (o->rests && isfinite(*own_time)) return ISO_OK; /* what rests has no turns */
-    if (fabs(turns) <= 1e15) return check_steps(o, turns);
-    return ISO_FAIL_ARGUMENT(o->ctx, "end",
-                             "%s = %g is out of range: it is %g turns of this ball, and 1e15 can be told apart",
-                             iso_clock_name(clock), time, turns);
 }
 
 iso_status iso_orbit_check_time(const iso_orbit *o, double time)
@@ -242,13 +171,11 @@ iso_status iso_orbit_at(iso_orbit *o, double time, iso_sample *sample)
 {
     ISO_DEFAULT_ARITHMETIC;
     double own_time, y[ISO_MAX_STATE];
-    iso_status status = to_own_time(o, time, &own_time);
-    if (status == ISO_OK && o->rests)
-        for (int i = 0; i < o->model.dim; i++) y[i] = o->still[i] + o->rate[i] * own_time;
-    else if (status == ISO_OK)
-        status = iso_integrator_at(o->integrator, own_time, y);
-    if (status == ISO_OK) status = check_drift(o, y);
-    return status == ISO_OK ? iso_orbit_make_sample(o, time, y, sample) : status;
+    ISO_TRY(to_own_time(o, time, &own_time));
+    for (int i = 0; o->rests && i < o->model.dim; i++) y[i] = o->still[i] + o->rate[i] * own_time;
+    if (!o->rests) ISO_TRY(iso_integrator_at(o->integrator, own_time, y));
+    ISO_TRY(check_drift(o, y));
+    return iso_orbit_make_sample(o, time, y, sample);
 }
 
 typedef struct sampled_event {
@@ -277,17 +204,15 @@ iso_status iso_orbit_event(iso_orbit *o, double (*g)(const iso_sample *sample, c
     const iso_event event = {event_function, &wrapped, direction};
     double begin, end, own_time, y[ISO_MAX_STATE];
     *found = false;
-    iso_status status = to_own_time(o, from, &begin);
-    if (status == ISO_OK) status = to_own_time(o, to, &end);
-    if (status == ISO_OK && o->rests && o->model.clocks == 0) return ISO_OK; /* nothing passes anything */
-    if (status == ISO_OK) status = iso_integrator_event(o->integrator, &event, begin, end, found, &own_time, y);
+    ISO_TRY(to_own_time(o, from, &begin));
+    ISO_TRY(to_own_time(o, to, &end));
+    if (o->rests && o->model.clocks == 0) return ISO_OK; /* nothing passes anything */
+    iso_status status = iso_integrator_event(o->integrator, &event, begin, end, found, &own_time, y);
     if (status == ISO_OK) status = sampled;
     if (status != ISO_OK) *found = false;
-    if (status != ISO_OK) return status;
     return *found ? iso_orbit_make_sample(o, own_time * o->unit_clock[o->model.clock], y, sample) : status;
 }
 
-/* The pressure of a sample. */
 static double pressure(const iso_sample *sample, const void *data)
 {
     (void)data;
@@ -317,14 +242,6 @@ void iso_orbit_allow_steps(iso_orbit *o, long max_steps)
 iso_statistics iso_orbit_statistics(const iso_orbit *o)
 {
     return iso_integrator_statistics(o->integrator);
-}
-
-double iso_orbit_integral(const iso_orbit *o, const iso_system *system, const iso_integral *integral,
-                          const iso_sample *sample, double *size)
-{
-    double y[ISO_MAX_STATE];
-    iso_orbit_state_of(o, system, sample, y);
-    return integral->value(&o->model.problem, y, size);
 }
 
 const iso_integral *iso_orbit_additional_integral(const iso_orbit *o)

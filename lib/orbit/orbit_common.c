@@ -1,40 +1,10 @@
-/* orbit_common.c - what every other file of an orbit needs: the numbers of a sample, and what an orbit is made of. */
+/* orbit_common.c - what every other file of an orbit needs: what an orbit is made of, and how it is prepared. */
 #include <math.h>
-#include <stddef.h>
-#include <string.h>
 
 #include "base/number_impl.h"
 #include "base/vec3_impl.h"
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
-
-/* --- the numbers of a sample ------------------------------------------------------------------------------------ */
-
-_Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double),
-               "a number for each column, in their order");
-
-double iso_sample_column(const iso_sample *sample, int column)
-{
-    double value;
-    memcpy(&value, (const char *)sample + (size_t)column * sizeof value, sizeof value);
-    return value;
-}
-
-double iso_sample_get(const iso_sample *sample, const char *name)
-{
-    const int column = iso_column_find(name);
-    return column < 0 ? NAN : iso_sample_column(sample, column);
-}
-
-void iso_sample_set_column(iso_sample *sample, int column, double value)
-{
-    memcpy((char *)sample + (size_t)column * sizeof value, &value, sizeof value);
-}
-
-void iso_sample_blank(iso_sample *s)
-{
-    for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) iso_sample_set_column(s, c, NAN);
-}
 
 /* --- what it is made of ----------------------------------------------------------------------------------------- */
 
@@ -88,46 +58,32 @@ iso_point_motion iso_orbit_motion(const iso_orbit *o)
 
 /* --- how it is prepared ----------------------------------------------------------------------------------------- */
 
-void iso_orbit_clear(iso_orbit *o)
-{
-    iso_problem *f = &o->model.problem;
-    char *const behind_effects = (char *)(&o->effects + 1), *const behind = (char *)(f + 1);
-    memset(o, 0, offsetof(iso_orbit, effects) + offsetof(iso_effects, written));
-    memset(behind_effects, 0, (size_t)((char *)&f->effects - behind_effects));
-    memset(f->at, 0, sizeof f->at);
-    memset(&f->motion, 0, offsetof(iso_formula, late_line));
-    memset(&f->energy_formula, 0, offsetof(iso_formula, late_line));
-    memset(behind, 0, (size_t)((char *)(o + 1) - behind));
-}
-
 bool iso_point_is_better(const iso_params *p)
 {
     return fabs(p->k) >= 0.125;
 }
 
-iso_way iso_way_first(const iso_params *p, iso_backend asked, iso_backend last, bool all_clocks)
+iso_attempt iso_attempt_first(const iso_params *p, iso_backend asked, iso_backend last, bool all_clocks)
 {
     const bool point = asked == ISO_BACKEND_AUTO && iso_point_is_better(p);
-    return (iso_way){point ? ISO_BACKEND_POINT : last, last, all_clocks, all_clocks};
+    return (iso_attempt){point ? ISO_BACKEND_POINT : last, last, all_clocks, all_clocks};
 }
 
-bool iso_way_next(iso_way *way, iso_status status)
+bool iso_attempt_next(iso_attempt *attempt, iso_status status)
 {
     if (status == ISO_OK || status == ISO_NO_MEMORY) return false;
-    if (status == ISO_NUMERICAL && way->clocks) return way->clocks = false, true;
-    if (way->backend == way->last) return false;
-    way->backend = way->last;
-    way->clocks = way->all_clocks;
+    if (status == ISO_NUMERICAL && attempt->clocks) return attempt->clocks = false, true;
+    if (attempt->backend == attempt->last) return false;
+    attempt->backend = attempt->last;
+    attempt->clocks = attempt->all_clocks;
     return true;
 }
 
-/* --- a message -------------------------------------------------------------------------------------------------- */
-
-iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out)
+iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *advice)
 {
     const iso_params *p = &o->units.own;
     return iso_context_fail(
         o->ctx, ISO_NUMERICAL, "k",
         "k = %s is too extreme for %s with max J/min J = %.3g: powers q^(1/k) leave the range of doubles; %s",
-        ISO_SHORT(p->k), what, max3(p->J) / min3(p->J), way_out);
+        ISO_SHORT(p->k), what, max3(p->J) / min3(p->J), advice);
 }

@@ -25,48 +25,47 @@ struct iso_orbit {
 iso_status iso_orbit_no_point(iso_context *ctx, const iso_effect *breaking);
 
 /* Sets o->units, o->effects, o->h, o->eps, o->level and o->system from a start and what o->options ask for (the
- * backend not ISO_BACKEND_AUTO), and gives the start in that system's variables and own units. Errors: those of
+ * backend not ISO_BACKEND_AUTO), and returns the start in that system's variables and own units. Errors: those of
  * iso_orbit_create. */
 iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE]);
 
-/* Makes an orbit empty, to be prepared: but not the texts of effects, and of formulas only what says how long they are.
- * Clearing all 16 kB would cost time in batches. */
-void iso_orbit_clear(iso_orbit *o);
-
-/* All of an orbit but the integrator: o->ctx and o->options say what is asked for; gives the start of its model.
- * Errors: those of iso_orbit_create. */
-iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_MAX_STATE]);
+/* All of an orbit but the integrator; returns the start of its model in y. Errors: those of iso_orbit_create. */
+iso_status iso_orbit_prepare(iso_orbit *o, iso_context *ctx, const iso_orbit_options *options, const iso_params *p,
+                             const iso_start *start, double y[ISO_MAX_STATE]);
 
 /* The sample at `time` (in the caller's units) where the model's state is y. Errors: ISO_NUMERICAL where a number
  * does not fit a double, in own units or in the caller's. */
 iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y[], iso_sample *s);
 
 /* Fails with ISO_NUMERICAL: what leaves the range of doubles for this k, and what to do about it. */
-iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out);
+iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *advice);
 
 /* Whether it is better to integrate the point, which needs fewer products than the ball. For |k| < 1/8 it is not:
  * powers q^(1/k) grow large, and the map between the models is steep. */
 bool iso_point_is_better(const iso_params *p);
 
-/* How an orbit of a batch, or of crossings, is prepared. One way after the other is tried:
+/* How an orbit of a batch, or of crossings, is prepared: one attempt after the other, until one succeeds.
  *
- *     iso_way way = iso_way_first(...);
+ *     iso_attempt attempt = iso_attempt_first(...);
  *     do
- *         status = ...;   prepares the orbit by way.backend, with all clocks if way.clocks
- *     while (iso_way_next(&way, status));
+ *         status = ...;   prepares the orbit by attempt.backend, with all clocks if attempt.clocks
+ *     while (iso_attempt_next(&attempt, status));
  */
-typedef struct iso_way {
-    iso_backend backend, last; /* now; of the last way                        */
-    bool clocks, all_clocks;   /* now; of the first way with each backend     */
-} iso_way;
+typedef struct iso_attempt {
+    iso_backend backend, last; /* now; of the last attempt                    */
+    bool clocks, all_clocks;   /* now; of the first attempt with each backend */
+} iso_attempt;
 
 /* If `asked` is ISO_BACKEND_AUTO and the point is better, the point comes first. `last` comes last. Each is tried
  * with all clocks if all_clocks. */
-iso_way iso_way_first(const iso_params *p, iso_backend asked, iso_backend last, bool all_clocks);
+iso_attempt iso_attempt_first(const iso_params *p, iso_backend asked, iso_backend last, bool all_clocks);
 
-/* Goes to the next way, if one is left after this status: without the other clocks if their numbers do not fit a
+/* Goes to the next attempt, if one is left after this status: without the other clocks if their numbers do not fit a
  * double (ISO_NUMERICAL), else by the last backend. */
-bool iso_way_next(iso_way *way, iso_status status);
+bool iso_attempt_next(iso_attempt *attempt, iso_status status);
+
+/* The most that the orbit's clock gains while t goes on by 1, in own units. */
+double iso_orbit_fastest(const iso_orbit *o);
 
 /* From now on the orbit may take this many steps, counted from its start; 0: any number. */
 void iso_orbit_allow_steps(iso_orbit *o, long max_steps);
@@ -74,19 +73,17 @@ void iso_orbit_allow_steps(iso_orbit *o, long max_steps);
 /* The method of backend ISO_BACKEND_EXACT: a model of the point is found by its closed solution. */
 extern const iso_method iso_method_exact;
 
-/* NaN in every column. */
+/* The number in a column (iso_column_find); sets it; makes NaN of all. */
+double iso_sample_column(const iso_sample *sample, int column);
+void iso_sample_set_column(iso_sample *sample, int column, double value);
 void iso_sample_blank(iso_sample *s);
 
-/* What effects add to a sample of the ball's model (errors: as iso_orbit_make_sample); back from a sample to the
- * state of the whole model, own units. */
-iso_status iso_orbit_sample_effects(const iso_orbit *o, const double y[], iso_sample *sample);
+/* (M, gamma) where the model's state is y; and the state of the whole model where a sample is. Own units. */
+void iso_orbit_as_point(const iso_orbit *o, const double y[], double point[ISO_STATE]);
 void iso_orbit_state_of(const iso_orbit *o, const iso_system *system, const iso_sample *sample, double y[]);
 
 /* The ball's integral beyond the energy and the constraints; NULL: none is known. */
 const iso_integral *iso_orbit_additional_integral(const iso_orbit *orbit);
-
-/* Sets it. */
-void iso_sample_set_column(iso_sample *sample, int column, double value);
 
 /* Whether a time can be asked for: finite, within 1e15 turns of the start, and by an explicit method not through more
  * than 1e6 times in which a stiff motion dies away. Errors: ISO_BAD_ARGUMENT about "end" or "method". */
@@ -119,7 +116,8 @@ iso_effects iso_scene_effects(const iso_scene *scene);
  * "angular_velocity" at rest; about "eps", not above 0; about an effect that acts. Those of iso_orbit_create. */
 iso_status iso_scene_on_level(iso_context *ctx, iso_scene *scene, double level);
 
-/* All names, for lists of them; returns their number. */
+/* The column called `name`; -1: there is none. All names, for lists of them; returns their number. */
+int iso_column_find(const char *name);
 int iso_column_names(const char *names[ISO_TRAJECTORY_COLUMNS]);
 
 /* The effect that a column needs; ISO_EFFECTS: none. */
@@ -167,7 +165,7 @@ iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, const doub
 iso_status iso_record_start_at(iso_context *ctx, const iso_record *record, const iso_params *params,
                                iso_model_kind model, const double row[], iso_start *start, iso_effects *effects);
 
-/* Writes the lines without which a record cannot be converted back: model, k and J. An orbit (may be NULL) also gives
+/* Writes the lines without which a record cannot be converted back: model, k and J. An orbit (may be NULL) adds
  * h, eps and the effects. A number that is no normal double in these units is left out: h, eps and the level of a
  * point follow from any row. */
 iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model, const iso_params *params,
@@ -182,12 +180,9 @@ iso_status iso_record_describe_effects(iso_context *ctx, iso_record *record, con
 iso_status iso_record_describe_scene(iso_context *ctx, iso_record *record, const iso_scene *scene);
 
 /* The upward vertical in axes of space, where it is constant: R(Q) u, by the lines `attitude.quaternion` (Q) and
- * `gravity.up` (u), or by the columns q0..3 and e1..3 of the first row. False: the record does not tell it, or a line
+ * `gravity.up` (u), or by the columns q0..3 and e1..3 of the first row. False: the record does not say it, or a line
  * is damaged. */
 bool iso_record_up(iso_context *ctx, const iso_record *record, double up[3]);
-
-/* The number in a column (iso_column_find). */
-double iso_sample_column(const iso_sample *sample, int column);
 
 const iso_model *iso_orbit_model(const iso_orbit *orbit);
 const iso_units *iso_orbit_units(const iso_orbit *orbit);
@@ -219,8 +214,5 @@ void iso_scene_forget_place(iso_scene *scene, const char *key);
 
 /* Errors: ISO_BAD_ARGUMENT about "end" or "step": not finite, or more than ISO_MOST_ROWS rows. */
 iso_status iso_scene_check_times(iso_context *ctx, const iso_scene *scene);
-
-/* The column called `name`; -1: there is none. */
-int iso_column_find(const char *name);
 
 #endif

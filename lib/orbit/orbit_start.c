@@ -10,28 +10,6 @@
 #include "model/model_impl.h"
 #include "orbit/orbit_impl.h"
 
-static void set_units(iso_orbit *o, const iso_params *p, double speed)
-{
-    iso_units_choose(p, speed * fmax(1, fabs(p->k)), &o->units); /* the normal turns |k| times as fast */
-    o->unit_M = iso_unit(&o->units, iso_system_point.fast_dimension);
-    for (iso_clock c = 0; c < ISO_CLOCKS; c++) o->unit_clock[c] = iso_unit(&o->units, iso_clock_dimension(c));
-}
-
-/* What the numbers of an orbit are measured with must fit a double, and not lose digits. */
-static iso_status check_units(const iso_orbit *o, const iso_start *start)
-{
-    const iso_orbit_options *opt = &o->options;
-    const bool M = start->model == ISO_POINT || (opt->shown != ISO_SHOW_BALL && !opt->gamma_alone);
-    bool fits = !M || isnormal(o->unit_M);
-    for (int c = 0; c < ISO_CLOCKS; c++)
-        fits = fits && ((c != (int)opt->clock && !opt->with_clock[c]) || isnormal(o->unit_clock[c]));
-    if (fits) return ISO_OK;
-    return ISO_FAIL_NUMERICAL(o->ctx,
-                              "M (about %g) or a clock (s about %g) does not fit a double in these units: use other "
-                              "units of mass, length or time, or ask for the ball in its time t alone",
-                              o->unit_M, o->unit_clock[ISO_CLOCK_S]);
-}
-
 /* Whether q^(exponent), times k^2/det J, is a double for all these q. */
 static bool powers_fit(const iso_params *p, double least, double most, double exponent)
 {
@@ -52,24 +30,28 @@ static iso_status check_powers(const iso_orbit *o, const iso_start *start)
                                  point ? "start from a ball" : "ask for omega, n or gamma, and t, alone");
 }
 
-/* The speed that the potentials can give the ball, in the caller's units. */
-static double falling_speed(const iso_orbit *o, const iso_params *p, const double n[3])
+/* Chooses the own units, for a ball that moves as fast as at the start, or as the potentials can make it. y: the start
+ * in them. Returns the problem in own units, as far as it is known yet: in its place, since it is too large to copy for
+ * each orbit. */
+static iso_problem *to_own_units(iso_orbit *o, const iso_params *p, const iso_start *start, double speed,
+                                 double y[ISO_STATE])
 {
-    if (iso_effects_none(&o->effects)) return 0;
-    const iso_problem problem = {.p = *p, .effects = o->effects};
-    const double y[ISO_STATE] = {0, 0, 0, n[0], n[1], n[2]};
-    const double speed = sqrt(2 * iso_effects_strength(&problem, y) / max3(p->J));
-    return isfinite(speed) ? speed : 0;
-}
-
-/* A potential that breaks the isomorphism is not part of the h that a twin has. It may also need states that do not
- * exist yet. */
-static void leave_out_broken(iso_effects *effects)
-{
-    for (int e = 0; e < ISO_EFFECTS; e++) {
-        const iso_effect *effect = iso_effect_list[e];
-        effects->on[e] = effects->on[e] && !(effect->potential && iso_effect_why_broken(effect));
-    }
+    iso_problem *problem = &o->model.problem;
+    double still[ISO_STATE] = {0}, falling = 0;
+    copy(start->y, y, ISO_STATE);
+    copy(y + 3, still + 3, 3);
+    problem->p = *p;
+    iso_effects_copy(&o->effects, &problem->effects);
+    if (!iso_effects_none(&o->effects)) falling = sqrt(2 * iso_effects_strength(problem, still) / max3(p->J));
+    speed = fmax(speed, isfinite(falling) ? falling : 0);
+    iso_units_choose(p, speed * fmax(1, fabs(p->k)), &o->units); /* the normal turns |k| times as fast */
+    o->unit_M = iso_unit(&o->units, iso_system_point.fast_dimension);
+    for (iso_clock c = 0; c < ISO_CLOCKS; c++) o->unit_clock[c] = iso_unit(&o->units, iso_clock_dimension(c));
+    iso_effects_scale(&o->effects, &o->units, -1);
+    for (int i = 0; i < 3; i++) y[i] /= start->model == ISO_BALL ? o->units.w : o->unit_M;
+    problem->p = o->units.own;
+    iso_effects_copy(&o->effects, &problem->effects);
+    return problem;
 }
 
 /* The level stated, in units of the coupling; 0: none is. */
@@ -78,24 +60,15 @@ static double stated_level(const iso_params *p, const iso_effects *effects)
     return iso_effects_have_level(effects) ? iso_coupling(p, iso_effects_level(effects)) : 0;
 }
 
-/* The problem in own units, as far as it is known yet: in its place, since it is too large to copy for each orbit. */
-static iso_problem *own_problem(iso_orbit *o)
-{
-    o->model.problem.p = o->units.own;
-    iso_effects_copy(&o->effects, &o->model.problem.effects);
-    return &o->model.problem;
-}
-
-/* A ball's start in y; every ball that moves or is moved has a point, at the energy that `level` says. */
+/* A ball's start in y; every ball that moves or is moved has a point, at the energy that `level` says. A potential that
+ * breaks the isomorphism is not part of the h that a twin has. It may also need states that do not exist yet. */
 static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE])
 {
     double size;
-    set_units(o, p, fmax(largest(start->y), falling_speed(o, p, start->y + 3)));
-    iso_effects_scale(&o->effects, &o->units, -1);
-    copy(start->y, y, ISO_STATE);
-    for (int i = 0; i < 3; i++) y[i] /= o->units.w;
-    iso_problem *problem = own_problem(o);
-    leave_out_broken(&problem->effects);
+    iso_problem *problem = to_own_units(o, p, start, largest(start->y), y);
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (iso_effect_list[e]->potential && iso_effect_why_broken(iso_effect_list[e]))
+            problem->effects.on[e] = false;
     o->h = iso_system_ball.energy(problem, y, &size);
     o->eps = iso_coupling(&o->units.own, o->h);
     o->level = stated_level(&o->units.own, &o->effects);
@@ -137,11 +110,7 @@ static bool find_level(iso_orbit *o, const iso_start *start, iso_problem *proble
 /* A point's start in y. Off the level H = 0 its ball lives in the potential of `level`. */
 static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE])
 {
-    set_units(o, p, fmax(point_speed(p, start), falling_speed(o, p, start->y + 3)));
-    iso_effects_scale(&o->effects, &o->units, -1);
-    copy(start->y, y, ISO_STATE);
-    for (int i = 0; i < 3; i++) y[i] /= o->unit_M;
-    iso_problem *problem = own_problem(o);
+    iso_problem *problem = to_own_units(o, p, start, point_speed(p, start), y);
     const double stated = iso_effects_level(&o->effects);
     const bool agrees = find_level(o, start, problem, y);
     o->eps = problem->eps;
@@ -155,18 +124,6 @@ static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start
 }
 
 /* --- what effects allow ----------------------------------------------------------------------------------------- */
-
-/* The closed solution knows what `level` and a rotor do to the point, and nothing else that acts. */
-static iso_status check_closed(iso_context *ctx, const iso_effects *effects)
-{
-    const iso_effect *effect = iso_effects_beyond_rotor(effects);
-    if (!effect) return ISO_OK;
-    return ISO_FAIL_ARGUMENT(
-        ctx, effect->name,
-        "the closed solution is for a ball on which nothing acts but '%s' and a rotor, not for one with '%s': take "
-        "backend %s",
-        iso_level_name(), effect->name, iso_effect_why_broken(effect) ? "ball" : "point");
-}
 
 iso_status iso_orbit_no_point(iso_context *ctx, const iso_effect *breaking)
 {
@@ -184,7 +141,13 @@ static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_sta
     const bool point = by_point || o->options.shown != ISO_SHOW_BALL || start->model == ISO_POINT;
     if (start->model == ISO_POINT && isnan(iso_effects_level(e)))
         iso_effects_set_level(e, false, NAN); /* as it comes */
-    if (o->options.backend == ISO_BACKEND_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
+    const iso_effect *beyond = o->options.backend == ISO_BACKEND_EXACT ? iso_effects_beyond_rotor(e) : NULL;
+    if (beyond)
+        return ISO_FAIL_ARGUMENT(
+            o->ctx, beyond->name,
+            "the closed solution is for a ball on which nothing acts but '%s' and a rotor, not for "
+            "one with '%s': take backend %s",
+            iso_level_name(), beyond->name, iso_effect_why_broken(beyond) ? "ball" : "point");
     if (breaking && point) return iso_orbit_no_point(o->ctx, breaking);
     if (only_ball && by_point)
         return ISO_FAIL_ARGUMENT(o->ctx, only_ball->name, "'%s' is the ball's: take backend ball", only_ball->name);
@@ -214,41 +177,19 @@ static iso_status check_constant(const iso_orbit *o, const iso_start *start, con
         fabs(U) / changes);
 }
 
-/* (24), or on H = 0 the form without powers of q where they are steep: no method for (24) alone has a use for it. */
-static const iso_system *choose_system(const iso_orbit *o)
+/* (24), or on H = 0 the form without powers of q where they are steep: no method for (24) alone has a use for it. (24)
+ * has q^(1 + 1/|k|) wherever the orbit may go: q lies between the least and the largest moment of inertia. */
+static iso_status choose_system(iso_orbit *o)
 {
     const iso_params *p = &o->units.own;
     const iso_method *method = o->options.method;
     const bool bound = o->options.backend == ISO_BACKEND_EXACT || (method && method->system);
-    if (o->options.backend == ISO_BACKEND_BALL) return &iso_system_ball;
-    if (bound || o->level != 0 || iso_effects_have_image(&o->effects) || p->k == -1) return &iso_system_point;
-    return iso_params_steep(p) ? &iso_system_point_in_t : &iso_system_point;
-}
-
-/* (24) has q^(1 + 1/|k|) wherever the orbit may go: q lies between the least and the largest moment of inertia. */
-static iso_status check_form(const iso_orbit *o)
-{
-    const iso_params *p = &o->units.own;
+    const bool steep = iso_params_steep(p) && !bound && o->level == 0 && !iso_effects_have_image(&o->effects);
+    o->system = o->options.backend == ISO_BACKEND_BALL ? &iso_system_ball
+                : steep && p->k != -1                  ? &iso_system_point_in_t
+                                                       : &iso_system_point;
     if (o->system != &iso_system_point || powers_fit(p, min3(p->J), max3(p->J), 1 + 1 / fabs(p->k))) return ISO_OK;
     return iso_orbit_too_extreme(o, "the form (24) of the point", "take backend ball");
-}
-
-/* What an orbit is asked for decides what must exist: the ball, the point, powers of q. */
-typedef struct needs {
-    bool ball, point, powers;
-} needs;
-
-static needs what_is_needed(const iso_orbit_options *opt, const iso_start *start)
-{
-    const bool other_clocks = opt->with_clock[ISO_CLOCK_TAU] || opt->with_clock[ISO_CLOCK_S];
-    const bool point = opt->backend != ISO_BACKEND_BALL || opt->shown != ISO_SHOW_BALL;
-    const bool M = opt->shown != ISO_SHOW_BALL && !opt->gamma_alone;
-    return (needs){
-        .ball = opt->backend == ISO_BACKEND_BALL || opt->shown != ISO_SHOW_POINT || opt->clock != ISO_CLOCK_S ||
-                opt->with_clock[ISO_CLOCK_T] || opt->with_clock[ISO_CLOCK_TAU],
-        .point = point,
-        .powers = M || start->model == ISO_POINT || opt->clock != ISO_CLOCK_T || other_clocks,
-    };
 }
 
 static void to_system(const iso_orbit *o, iso_model_kind model, double y[ISO_STATE])
@@ -260,49 +201,69 @@ static void to_system(const iso_orbit *o, iso_model_kind model, double y[ISO_STA
     if (o->system == &iso_system_point_in_t) (ball ? iso_ball_to_point_in_t : iso_point_to_point_in_t)(own, y, y);
 }
 
-/* Whether c of a level is a double in the caller's units. */
-static bool level_fits(const iso_orbit *o)
+/* Refuses what does not fit a double: of a start in own units, and of its numbers in the caller's. `twin`: the point is
+ * needed, be it by its states or as what is integrated. */
+static iso_status check_range(iso_orbit *o, const iso_start *start, bool twin, const double y[ISO_STATE])
 {
-    const iso_effects in_users_units = iso_orbit_effects(o);
-    return isnormal(iso_effects_level(&in_users_units));
+    const iso_orbit_options *opt = &o->options;
+    const bool ball = start->model == ISO_BALL, level = iso_effects_have_level(&o->effects);
+    const bool M = !ball || (opt->shown != ISO_SHOW_BALL && !opt->gamma_alone);
+    /* where the normal is to turn once in a unit of time, h goes like k^-2 and eps like k^-4 */
+    const bool still = ball && o->h == 0 && !iso_orbit_has_twin(o);
+    const bool lost = ball && o->h != 0 && !(isnormal(o->h) && isnormal(o->eps));
+    if (twin && (still ? largest(y) > 0 : lost))
+        return iso_orbit_too_extreme(o, "the point", "take backend ball, and no more than omega and n");
+    if (twin && still)
+        return iso_context_fail(o->ctx, ISO_NOT_MAPPED, "angular_velocity",
+                                "a ball at rest (h = 0) has no twin: the point's potential would vanish");
+    bool fits = !M || isnormal(o->unit_M); /* what numbers are measured with; they must not lose digits either */
+    for (int c = 0; c < ISO_CLOCKS; c++)
+        fits = fits && ((c != (int)opt->clock && !opt->with_clock[c]) || isnormal(o->unit_clock[c]));
+    if (!fits)
+        return ISO_FAIL_NUMERICAL(
+            o->ctx,
+            "M (about %g) or a clock (s about %g) does not fit a double in these units: use other "
+            "units of mass, length or time, or ask for the ball in its time t alone",
+            o->unit_M, o->unit_clock[ISO_CLOCK_S]);
+    ISO_TRY(check_constant(o, start, y));
+    if (ball && level && iso_effects_level(&o->effects) == 0)
+        return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
+                                "level: c is out of the range of doubles in the ball's own units");
+    return ISO_OK;
 }
 
+/* What is asked for decides what must exist: the ball, the point (twin), powers of q. */
 iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE])
 {
-    const needs need = what_is_needed(&o->options, start);
+    const iso_orbit_options *opt = &o->options;
+    const bool from_ball = start->model == ISO_BALL, to_ball = opt->backend == ISO_BACKEND_BALL;
+    const bool twin = !to_ball || opt->shown != ISO_SHOW_BALL, M = opt->shown != ISO_SHOW_BALL && !opt->gamma_alone;
+    const bool ball = from_ball || to_ball || opt->shown != ISO_SHOW_POINT || opt->clock != ISO_CLOCK_S ||
+                      opt->with_clock[ISO_CLOCK_T] || opt->with_clock[ISO_CLOCK_TAU];
+    const bool powers = M || !from_ball || opt->clock != ISO_CLOCK_T || opt->with_clock[ISO_CLOCK_TAU] ||
+                        opt->with_clock[ISO_CLOCK_S];
     if (start->model != ISO_BALL && start->model != ISO_POINT)
         return ISO_FAIL_ARGUMENT(o->ctx, "", "an orbit starts as a ball or as a point");
-    if (!all_finite(start->y, ISO_STATE) || (start->model == ISO_POINT && isinf(start->eps)))
+    if (!all_finite(start->y, ISO_STATE) || (!from_ball && isinf(start->eps)))
         return ISO_FAIL_ARGUMENT(o->ctx, "", "the start is not finite");
     o->length = p->body.radius > 0 ? p->body.radius : 1;
     ISO_TRY(check_effects(o, p, start));
     iso_units_choose(p, 0, &o->units);
-    if (need.powers) ISO_TRY(check_powers(o, start));
-    if (start->model == ISO_BALL)
+    if (powers) ISO_TRY(check_powers(o, start));
+    if (from_ball)
         start_ball(o, p, start, y);
     else
         ISO_TRY(start_point(o, p, start, y));
-    /* where the normal is to turn once in a unit of time, h goes like k^-2 and eps like k^-4 */
-    const bool still = start->model == ISO_BALL && o->h == 0 && !iso_orbit_has_twin(o);
-    const bool lost = start->model == ISO_BALL && o->h != 0 && !(isnormal(o->h) && isnormal(o->eps));
-    if (need.point && (still ? largest(y) > 0 : lost))
-        return iso_orbit_too_extreme(o, "the point", "take backend ball, and no more than omega and n");
-    if (need.point && still)
-        return iso_context_fail(o->ctx, ISO_NOT_MAPPED, "angular_velocity",
-                                "a ball at rest (h = 0) has no twin: the point's potential would vanish");
-    ISO_TRY(check_units(o, start));
-    ISO_TRY(check_constant(o, start, y));
-    if (start->model == ISO_BALL && iso_effects_have_level(&o->effects) && iso_effects_level(&o->effects) == 0)
-        return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
-                                "level: c is out of the range of doubles in the ball's own units");
-    o->system = choose_system(o);
-    ISO_TRY(check_form(o));
+    ISO_TRY(check_range(o, start, twin, y));
+    ISO_TRY(choose_system(o));
     to_system(o, start->model, y);
-    const bool level = need.ball || start->model == ISO_BALL; /* the ball's is asked for, and may not fit a double */
-    if (level && iso_effects_have_level(&o->effects) && !level_fits(o))
-        return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
-                                "level: c of the ball is out of the range of doubles in these units: use other "
-                                "units, or ask for the point in its time s alone");
-    if (all_finite(y, ISO_STATE) && isfinite(o->h) && (!need.point || isfinite(o->eps))) return ISO_OK;
+    if (ball && iso_effects_have_level(&o->effects)) {
+        const iso_effects in_users_units = iso_orbit_effects(o);
+        if (!isnormal(iso_effects_level(&in_users_units)))
+            return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
+                                    "level: c of the ball is out of the range of doubles in these units: use other "
+                                    "units, or ask for the point in its time s alone");
+    }
+    if (all_finite(y, ISO_STATE) && isfinite(o->h) && (!twin || isfinite(o->eps))) return ISO_OK;
     return ISO_FAIL_NUMERICAL(o->ctx, "the start is out of the range of doubles in the ball's own units");
 }

@@ -19,28 +19,25 @@ static void add_sample(iso_rows *r, const double row[])
     iso_two_point_add(r->quadrature, own);
 }
 
-/* Whether nothing but the six numbers of the model goes on from row to row, by equations that have a series. */
-static bool suits(const iso_rows *r, const iso_orbit *orbit)
-{
-    const iso_model *model = iso_orbit_model(orbit);
-    const iso_system *system = r->model == ISO_BALL ? &iso_system_ball : &iso_system_point;
-    const iso_effects effects = iso_orbit_effects(orbit);
-    return !r->alone && model->system == system && model->clock == r->clock && r->clock == system->clock &&
-           model->moving == ISO_STATE && !orbit->rests && !iso_effects_breaking(&effects);
-}
-
+/* A gap is measured if nothing but the six numbers of the model goes on from row to row, by equations that have a
+ * series. */
 iso_status iso_rows_begin(iso_rows *r, const iso_orbit *orbit, const double first[], double tolerance)
 {
+    const iso_system *system = r->model == ISO_BALL ? &iso_system_ball : &iso_system_point;
     iso_rows_free(r);
     r->last = calloc(r->width + 1, sizeof *r->last);
     r->now = calloc(r->width + 1, sizeof *r->now);
     if (!r->last || !r->now) return iso_context_no_memory(r->ctx, "a row");
     memcpy(r->last, first, r->width * sizeof *first);
-    if (!orbit || !suits(r, orbit)) return ISO_OK;
+    if (!orbit || r->alone) return ISO_OK;
+    const iso_model *model = &orbit->model;
+    if (model->system != system || model->clock != r->clock || r->clock != system->clock ||
+        model->moving != ISO_STATE || orbit->rests || iso_effects_breaking(&orbit->effects))
+        return ISO_OK;
     r->unit = r->model == ISO_BALL ? orbit->units.w : orbit->unit_M;
     memcpy(r->unit_clock, orbit->unit_clock, sizeof r->unit_clock);
     memcpy(r->has_clock, orbit->options.with_clock, sizeof r->has_clock);
-    return iso_two_point_create(r->ctx, iso_orbit_model(orbit), tolerance, &r->quadrature);
+    return iso_two_point_create(r->ctx, model, tolerance, &r->quadrature);
 }
 
 void iso_rows_free(iso_rows *r)

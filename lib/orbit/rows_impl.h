@@ -32,7 +32,7 @@ typedef struct iso_row_gap {
 typedef struct iso_rows {
     iso_context *ctx;
     iso_model_kind model; /* whose states the rows have               */
-    iso_clock clock;      /* that gives their times                   */
+    iso_clock clock;      /* of their times                           */
     const int *columns;   /* of a trajectory, in a row; -1: not there */
     size_t width;         /* of a row                                 */
     bool alone;           /* do not measure: integrate each gap       */

@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
@@ -148,12 +149,11 @@ iso_status iso_start_point(iso_context *ctx, const double M[3], const double gam
 iso_status iso_scene_replaced(iso_context *ctx, const iso_scene *s, const double *k, const double J[3],
                               const double y[6], iso_params *params, iso_start *start)
 {
-    iso_status status = ISO_OK;
     *params = s->params;
     *start = s->start;
-    if (k || J) status = iso_params_reduced(ctx, k ? *k : s->params.k, J ? J : s->params.J, params);
-    if (status == ISO_OK && (k || J) && s->params.D > 0) status = iso_params_set_D(ctx, s->params.D, params);
-    if (status != ISO_OK || !y) return status;
+    if (k || J) ISO_TRY(iso_params_reduced(ctx, k ? *k : s->params.k, J ? J : s->params.J, params));
+    if ((k || J) && s->params.D > 0) ISO_TRY(iso_params_set_D(ctx, s->params.D, params));
+    if (!y) return ISO_OK;
     if (s->start.model == ISO_BALL)
         return iso_start_ball(ctx, y, y + 3, s->effects.on[ISO_TWIST] ? ISO_SPIN_KEEP : ISO_SPIN_REFUSE, start);
     return iso_start_point(ctx, y, y + 3, isnan(s->start.eps) ? NULL : &s->start.eps, false, start);
@@ -229,40 +229,35 @@ double iso_scene_time(const iso_scene *scene, size_t row)
     return scene->end * ((double)row / USUAL_STEPS);
 }
 
-/* Why an effect that is on leaves a column empty; NULL: it fills it, or the column is none of its own. */
-static const char *why_empty(const iso_scene *scene, int column)
+/* A column that is there without effects, or that the scene's effects fill. *why (may be NULL): the effect is on, but
+ * leaves it empty; NULL: it is off. */
+static bool is_filled(const iso_scene *scene, int column, const char **why)
 {
-    const iso_effect_id effect = iso_column_effect(column);
-    const bool asked = effect < ISO_EFFECTS && iso_effect_list[effect]->empty;
-    return asked ? iso_effect_list[effect]->empty(&scene->params, &scene->effects, iso_column_name(column)) : NULL;
-}
-
-/* A column that is there without effects, or that the scene's effects fill. */
-static bool is_filled(const iso_scene *scene, int column)
-{
-    const iso_effect_id effect = iso_column_effect(column);
-    return effect == ISO_EFFECTS || (scene->effects.on[effect] && !why_empty(scene, column));
+    const iso_effect_id e = iso_column_effect(column);
+    if (e == ISO_EFFECTS) return true;
+    const iso_effect *effect = iso_effect_list[e];
+    const bool on = scene->effects.on[e], asked = on && effect->empty;
+    const char *empty = asked ? effect->empty(&scene->params, &scene->effects, iso_column_name(column)) : NULL;
+    if (why) *why = empty;
+    return on && !empty;
 }
 
 /* The columns of a picture are runs of the list: t, omega, n; s, M, gamma; or all of it; the ball's with those of
  * effects. */
-static bool is_default(const iso_scene *scene, int c)
-{
-    const iso_models as = scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
-    const bool ball = c == ISO_CLOCK_T || (c >= ISO_COLUMN_BALL && c < ISO_COLUMN_POINT) || c >= ISO_COLUMN_EFFECTS;
-    const bool point = c == ISO_CLOCK_S || (c >= ISO_COLUMN_POINT && c < ISO_COLUMN_EFFECTS);
-    if (!is_filled(scene, c)) return false;
-    if (c < ISO_CLOCKS && iso_effects_clocks(&scene->effects)) return true;
-    return as == ISO_SHOW_BOTH || (as == ISO_SHOW_BALL && ball) || (as == ISO_SHOW_POINT && point);
-}
-
 int iso_scene_column_list(const iso_scene *scene, int columns[])
 {
+    const iso_models as = scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
+    const bool clocks = iso_effects_clocks(&scene->effects);
     int count = 0;
     for (size_t i = 0; i < scene->columns; i++)
         if (iso_column_find(scene->column[i]) >= 0) columns[count++] = iso_column_find(scene->column[i]);
-    for (int c = 0; scene->columns == 0 && c < iso_columns_count(); c++)
-        if (is_default(scene, c)) columns[count++] = c;
+    for (int c = 0; scene->columns == 0 && c < iso_columns_count(); c++) {
+        const bool point = c == ISO_CLOCK_S || (c >= ISO_COLUMN_POINT && c < ISO_COLUMN_EFFECTS);
+        const bool ball = !point && c != ISO_CLOCK_TAU;
+        if ((as == ISO_SHOW_BOTH || (as == ISO_SHOW_BALL ? ball : point) || (c < ISO_CLOCKS && clocks)) &&
+            is_filled(scene, c, NULL))
+            columns[count++] = c;
+    }
     return count;
 }
 
@@ -271,13 +266,11 @@ iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene)
     int columns[ISO_MAX_COLUMNS];
     const int count = iso_scene_column_list(scene, columns);
     for (int i = 0; i < count; i++) {
-        const iso_effect_id effect = iso_column_effect(columns[i]);
-        if (is_filled(scene, columns[i])) continue;
-        if (scene->effects.on[effect])
-            return ISO_FAIL_INPUT(ctx, "columns", "column '%s': %s", iso_column_name(columns[i]),
-                                  why_empty(scene, columns[i]));
-        return ISO_FAIL_INPUT(ctx, "columns", "column '%s' needs the effect '%s'", iso_column_name(columns[i]),
-                              iso_effect_list[effect]->name);
+        const char *name = iso_column_name(columns[i]), *why;
+        if (is_filled(scene, columns[i], &why)) continue;
+        if (why) return ISO_FAIL_INPUT(ctx, "columns", "column '%s': %s", name, why);
+        return ISO_FAIL_INPUT(ctx, "columns", "column '%s' needs the effect '%s'", name,
+                              iso_effect_list[iso_column_effect(columns[i])]->name);
     }
     return ISO_OK;
 }
@@ -295,11 +288,10 @@ static const iso_place *find_place(const iso_scene *scene, const char *key)
 
 bool iso_scene_is_rounded(const iso_scene *scene, const char *key)
 {
-    const size_t before = strlen(ISO_ROUNDED_KEY);
+    char rounded[2 * ISO_NAME_SIZE];
+    snprintf(rounded, sizeof rounded, ISO_ROUNDED_KEY "%s", key);
     for (int i = 0; i < scene->places; i++)
-        if (strncmp(scene->place[i].key, ISO_ROUNDED_KEY, before) == 0 &&
-            strcmp(scene->place[i].key + before, key) == 0)
-            return true;
+        if (strcmp(scene->place[i].key, rounded) == 0) return true;
     return false;
 }
 

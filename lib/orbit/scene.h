@@ -84,7 +84,7 @@ typedef struct iso_scene {
     size_t columns;             /* names of the columns wanted; 0: those of `as`                           */
     char column[ISO_MAX_COLUMNS][ISO_NAME_SIZE];
     const char *name; /* what messages call it; NULL: nothing. Not copied with the scene            */
-    int places; /* of what was read from a file, 0 for a scene filled by hand                              */
+    int places;       /* of what was read from a file, 0 for a scene filled by hand                              */
     iso_place place[ISO_MAX_PLACES];
 } iso_scene;
 

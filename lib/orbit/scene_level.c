@@ -27,7 +27,7 @@ static iso_status move_point(iso_context *ctx, const iso_orbit *orbit, double le
     if (size == 0) return ISO_FAIL_INPUT(ctx, "M", "M is 0 and has no direction: a level sets only the length of M");
     if (!(M > 0 && isfinite(M))) return refuse_place(ctx, m, level, q, "gamma");
     scale(start->y, 1 / size);
-    scale(start->y, M / norm(start->y) * iso_unit(iso_orbit_units(orbit), iso_system_point.fast_dimension));
+    scale(start->y, M / norm(start->y) * orbit->unit_M);
     if (isnan(start->eps)) start->eps = iso_orbit_coupling(orbit);
     return ISO_OK;
 }

@@ -41,15 +41,6 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-static void plan(group *g)
-{
-    const iso_walk *w = g->w;
-    const size_t room = w->samples ? ROOM_WITH_SAMPLES : ROOM, fit = room / w->most;
-    g->most = least(!w->in_order ? GROUP : fit < 1 ? 1 : least(fit, IN_ORDER), w->count);
-    g->slice = w->in_order ? least((w->most + SLICES - 1) / SLICES, room / SLICES) : least(w->most, ROUND);
-    g->round = w->in_order && g->most > 1 ? w->most : g->slice; /* the rounds of a single orbit are in order */
-}
-
 static iso_status make_room(group *g)
 {
     const size_t n = g->most, cells = n * g->round;
@@ -66,17 +57,6 @@ static iso_status make_room(group *g)
     return iso_context_no_memory(g->w->ctx, "the crossings of %zu orbits", n);
 }
 
-static void free_room(group *g)
-{
-    free(g->member);
-    free(g->orbit);
-    free(g->going);
-    free(g->found);
-    free(g->status);
-    free(g->sample);
-    for (int m = 0; m < 2; m++) free(g->crossing[m]);
-}
-
 void iso_walk_keep(iso_status *failure, char text[512], size_t i, iso_status status, const char *why)
 {
     if (*failure != ISO_OK) return;
@@ -90,19 +70,6 @@ void iso_walk_fail(iso_walk *w, size_t i, iso_status status, const char *why)
     w->failed += !*failed;
     *failed = true;
     iso_walk_keep(&w->failure, w->text, i, status, why);
-}
-
-static void note_failures(group *g, int m)
-{
-    iso_walk *w = g->w;
-    for (size_t i = 0; i < g->count; i++) {
-        member *one = &g->member[i];
-        if (g->status[i] == ISO_OK || one->ended[m]) continue;
-        const char *why = iso_crossings_why(g->crossings[m], i);
-        one->ended[m] = true;
-        iso_walk_fail(w, g->first + i, g->status[i], why);
-        if (w->failed_by) w->failed_by(w->user, g->first + i, m, g->status[i], why);
-    }
 }
 
 static void show_progress(const group *g, size_t stops)
@@ -140,12 +107,18 @@ static iso_status go_on(group *g, size_t each)
                 g->going, part,     g->round, g->crossing[m] + at, m == 0 && g->sample ? g->sample + at : NULL,
                 g->found, g->status};
             const iso_status status = iso_crossings_go_apart(g->crossings[m], &task);
+            const bool ended = status == ISO_STOPPED || status == ISO_NO_MEMORY;
             for (size_t i = 0; i < g->count; i++) {
-                g->member[i].done[m] += g->found[i];
+                member *one = &g->member[i];
+                one->done[m] += g->found[i];
                 if (g->status[i] == ISO_BAD_INPUT && g->found[i] == 0) g->going[i] = false; /* it stays away */
+                if (ended || g->status[i] == ISO_OK || one->ended[m]) continue;
+                const char *why = iso_crossings_why(g->crossings[m], i);
+                one->ended[m] = true;
+                iso_walk_fail(w, g->first + i, g->status[i], why);
+                if (w->failed_by) w->failed_by(w->user, g->first + i, m, g->status[i], why);
             }
-            if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
-            if (status != ISO_OK) note_failures(g, m);
+            if (ended) return status;
         }
         show_progress(g, g->asked + at + part);
     }
@@ -203,15 +176,24 @@ iso_status iso_walk_go(iso_walk *w)
 {
     group g = {.w = w, .first = w->first};
     if (w->count == 0 || w->most == 0) return ISO_OK;
+    const size_t room = w->samples ? ROOM_WITH_SAMPLES : ROOM, fit = room / w->most;
+    g.most = least(!w->in_order ? GROUP : fit < 1 ? 1 : least(fit, IN_ORDER), w->count);
+    g.slice = w->in_order ? least((w->most + SLICES - 1) / SLICES, room / SLICES) : least(w->most, ROUND);
+    g.round = w->in_order && g.most > 1 ? w->most : g.slice; /* the rounds of a single orbit are in order */
     w->group = &g;
-    plan(&g);
     iso_status status = make_room(&g);
     for (; status == ISO_OK && g.first < w->first + w->count; g.first += g.count) {
         g.count = least(g.most, w->first + w->count - g.first);
         w->begun += g.count;
         status = walk_group(&g);
     }
-    free_room(&g);
+    free(g.member);
+    free(g.orbit);
+    free(g.going);
+    free(g.found);
+    free(g.status);
+    free(g.sample);
+    for (int m = 0; m < 2; m++) free(g.crossing[m]);
     w->group = NULL;
     return status;
 }
@@ -219,12 +201,12 @@ iso_status iso_walk_go(iso_walk *w)
 double iso_walk_turn(iso_orbit *orbit, iso_clock clock)
 {
     iso_sample start;
-    const iso_units *units = iso_orbit_units(orbit);
-    const bool point = clock == ISO_CLOCK_S, pulled = iso_effects_pull(&iso_orbit_model(orbit)->problem.effects);
-    const double unit = point ? iso_unit(units, iso_system_point.fast_dimension) : units->w;
+    const bool point = clock == ISO_CLOCK_S, pulled = iso_effects_pull(&orbit->effects);
+    const double unit = point ? orbit->unit_M : orbit->units.w;
     if (iso_orbit_at(orbit, 0, &start) != ISO_OK) return NAN;
     const double speed = norm(point ? start.point : start.ball);
-    return 2 * ISO_PI / ((isnan(speed) ? unit : fmax(speed, pulled ? unit : 0)) * (point ? 1 : fabs(units->own.k)));
+    return 2 * ISO_PI /
+           ((isnan(speed) ? unit : fmax(speed, pulled ? unit : 0)) * (point ? 1 : fabs(orbit->units.own.k)));
 }
 
 /* --- the orbits of a scene -------------------------------------------------------------------------------------- */

@@ -37,8 +37,8 @@ static iso_status make_starts(iso_context *ctx, const iso_picture_request *q, is
     }
     if (all == 0) return ISO_FAIL_INPUT(ctx, "", "no picture: the table has no orbit that starts on the section");
     const char *const *index = iso_picture_index + iso_picture_axis(r);
-    ISO_TRY(iso_picture_say(ctx, picture, "right_name", "l,  where γ%s = cos l, γ%s = −sin l", index[1], index[2]));
-    return iso_picture_say(ctx, picture, "up_name", "M%s / |M|", index[0]);
+    ISO_TRY(iso_picture_line(ctx, picture, "right_name", "l,  where γ%s = cos l, γ%s = −sin l", index[1], index[2]));
+    return iso_picture_line(ctx, picture, "up_name", "M%s / |M|", index[0]);
 }
 
 /* --- indicators ------------------------------------------------------------------------------------------------- */

@@ -40,14 +40,14 @@ static iso_status make_difference(iso_context *ctx, const iso_picture_request *q
         ISO_TRY(iso_record_add(ctx, *copy, 1, row));
     }
     ISO_TRY(iso_picture_add_chart(ctx, picture, "difference", *copy, NULL, ISO_PICTURE_LARGEST));
-    ISO_TRY(iso_picture_say(ctx, picture, "differences", "difference of ball and point"));
+    ISO_TRY(iso_picture_line(ctx, picture, "differences", "difference of ball and point"));
     for (int i = 1; i <= 2 && q->table[i]; i++) { /* the ball, then the point; the point may be alone */
         const bool ball = i == 1 && (q->table[2] || iso_record_find(q->table[i], "n1") >= 0);
         if (iso_record_rows(q->table[i]) == 0) continue;
         ISO_TRY(iso_picture_sphere(ctx, picture, ball ? "ball" : "point", q->table[i],
                                    ball ? iso_picture_n : iso_picture_gamma));
-        ISO_TRY(iso_picture_say(ctx, picture, ball ? "on_ball" : "on_point",
-                                ball ? ISO_PICTURE_OF_BALL : ISO_PICTURE_OF_POINT));
+        ISO_TRY(iso_picture_line(ctx, picture, ball ? "on_ball" : "on_point",
+                                 ball ? ISO_PICTURE_OF_BALL : ISO_PICTURE_OF_POINT));
     }
     return ISO_OK;
 }
@@ -83,7 +83,7 @@ static iso_status add_rows(iso_context *ctx, const iso_record *r, const double *
 
 /* What rolls on what, from k alone: the radius of the fixed sphere is |k/(1-k)| times that of the ball. The point has
  * the potential of the theory, with that of a field (`field`). */
-static iso_status say_models(iso_context *ctx, iso_picture *picture, double k, bool field)
+static iso_status set_models(iso_context *ctx, iso_picture *picture, double k, bool field)
 {
     char where[100] = "on a plane", number[ISO_FRACTION_SIZE], power[40] = "";
     const double ratio = fabs(k / (1 - k));
@@ -92,18 +92,18 @@ static iso_status say_models(iso_context *ctx, iso_picture *picture, double k, b
         snprintf(where, sizeof where, "%s a sphere of its own radius", side);
     else if (k != 1)
         snprintf(where, sizeof where, "%s a sphere of %.3g times its radius", side, ratio);
-    ISO_TRY(iso_picture_say(ctx, picture, "rolls", "k = %s: a %sball %s", iso_fraction_text(number, k),
-                            k < 0 ? "hollow " : "", where));
+    ISO_TRY(iso_picture_line(ctx, picture, "rolls", "k = %s: a %sball %s", iso_fraction_text(number, k),
+                             k < 0 ? "hollow " : "", where));
     if (k != -1) snprintf(power, sizeof power, "^{%s}", iso_fraction_text(number, -1 / k));
-    return iso_picture_say(ctx, picture, "potential", "a point in the potential V = −ε (γ, Jγ)%s%s", power,
-                           field ? " + U/G" : "");
+    return iso_picture_line(ctx, picture, "potential", "a point in the potential V = −ε (γ, Jγ)%s%s", power,
+                            field ? " + U/G" : "");
 }
 
-static iso_status say_drawn(iso_context *ctx, iso_picture *picture, double to, double end)
+static iso_status set_drawn(iso_context *ctx, iso_picture *picture, double to, double end)
 {
     if (to == end)
-        return iso_picture_say(ctx, picture, "drawn", "drawn and compared: to t = %.6g; pale: the far side", end);
-    return iso_picture_say(
+        return iso_picture_line(ctx, picture, "drawn", "drawn and compared: to t = %.6g; pale: the far side", end);
+    return iso_picture_line(
         ctx, picture, "drawn",
         "drawn: a path as long as %.2g great circles, to t = %.4g; compared: to t = %.6g; pale: the far side",
         ISO_STRETCH_TURNS, to, end);
@@ -136,9 +136,9 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     ISO_TRY(add_rows(ctx, path, last, true, curve));
     ISO_TRY(iso_picture_axes(ctx, picture, "ball", r, 2, STEP));
     ISO_TRY(iso_picture_axes(ctx, picture, "point", r, 5, STEP));
-    ISO_TRY(say_models(ctx, picture, k, field && strcmp(field, "1") == 0));
-    ISO_TRY(say_drawn(ctx, picture, last[0], end));
-    ISO_TRY(iso_picture_say(ctx, picture, "result", "%s", result ? result : ""));
+    ISO_TRY(set_models(ctx, picture, k, field && strcmp(field, "1") == 0));
+    ISO_TRY(set_drawn(ctx, picture, last[0], end));
+    ISO_TRY(iso_picture_line(ctx, picture, "result", "%s", result ? result : ""));
     return iso_picture_set(ctx, picture, "t_end s_end", last);
 }
 

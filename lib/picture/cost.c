@@ -35,17 +35,6 @@ static iso_status add_name(iso_context *ctx, iso_record *names, const char *name
     return iso_record_add(ctx, names, 1, &word);
 }
 
-/* The measured rows of one backend and method from row `first` on. named: the number of the method's name, 0: none. */
-static iso_status add_series(iso_context *ctx, tables *t, size_t first, const char *backend, int named)
-{
-    double row[5] = {(double)iso_record_rows(t->panels), ++t->series, named};
-    for (size_t i = first; i < iso_record_rows(t->r); i++)
-        if (read_row(t->r, i, row + 3) && iso_picture_is(t->r, i, "backend", backend) &&
-            iso_picture_number(t->r, i, "method") == iso_picture_number(t->r, first, "method"))
-            ISO_TRY(iso_record_add(ctx, t->points, 1, row));
-    return ISO_OK;
-}
-
 /* A backend without a measured row has no panel. The first methods of a backend, and one that is named already, have a
  * name. */
 static iso_status add_panel(iso_context *ctx, tables *t, const char *backend)
@@ -67,7 +56,11 @@ static iso_status add_panel(iso_context *ctx, tables *t, const char *backend)
         while (named <= names && !iso_picture_is(t->methods, (size_t)named - 1, "name", name)) named++;
         if (named > names && (in_panel > NAMED || names == NAMES)) named = 0, t->others = true;
         if (named > names) ISO_TRY(add_name(ctx, t->methods, name));
-        ISO_TRY(add_series(ctx, t, i, backend, named));
+        double row[5] = {(double)iso_record_rows(t->panels), ++t->series, named}; /* of the points from here on */
+        for (size_t j = i; j < iso_record_rows(r); j++)
+            if (read_row(r, j, row + 3) && iso_picture_is(r, j, "backend", backend) &&
+                iso_picture_number(r, j, "method") == method)
+                ISO_TRY(iso_record_add(ctx, t->points, 1, row));
     }
     return ISO_OK;
 }

@@ -82,14 +82,6 @@ iso_status iso_picture_add_chart(iso_context *ctx, iso_picture *picture, const c
 
 /* --- two columns ------------------------------------------------------------------------------------------------ */
 
-/* Whether x and y are components of one vector: one unit is then equally long on both axes. */
-static bool are_components(const char *x, const char *y)
-{
-    const size_t length = strlen(x);
-    return length > 1 && strlen(y) == length && strncmp(x, y, length - 1) == 0 && x[0] != 'q' &&
-           strchr("123", x[length - 1]) && strchr("123", y[length - 1]);
-}
-
 /* The column of a name, which has numbers. */
 static iso_status find_column(iso_context *ctx, const iso_record *r, const char *name, int *column)
 {
@@ -129,7 +121,9 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     }
     if (iso_record_rows(*two) == 0)
         return ISO_FAIL_INPUT(ctx, "columns", "no picture: no row has numbers of '%s' and of '%s'", x, y);
-    const bool equal = are_components(x, y);
+    const size_t length = strlen(x); /* components of one vector: one unit is equally long on both axes */
+    const bool equal = length > 1 && strlen(y) == length && strncmp(x, y, length - 1) == 0 && x[0] != 'q' &&
+                       strchr("123", x[length - 1]) && strchr("123", y[length - 1]);
     ISO_TRY(iso_picture_add_curves(ctx, picture));
     ISO_TRY(iso_picture_add_chart(ctx, picture, "columns", *two, NULL,
                                   equal ? ISO_PICTURE_EVENLY : ISO_PICTURE_EXTREMES));

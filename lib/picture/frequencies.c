@@ -78,7 +78,7 @@ static iso_status make_map(iso_context *ctx, const iso_momentum *m, const double
     ISO_TRY(iso_picture_add(ctx, picture, "kinds", "part name' h over", &kinds));
     ISO_TRY(iso_picture_add(ctx, picture, "lines", "line h f", &lines));
     ISO_TRY(iso_picture_add(ctx, picture, "rotations", "line name'", &rotations));
-    ISO_TRY(iso_picture_say(ctx, picture, "f", m->k == 1 ? "plane" : "shell"));
+    ISO_TRY(iso_picture_line(ctx, picture, "f", m->k == 1 ? "plane" : "shell"));
     ISO_TRY(iso_picture_set(ctx, picture, "at_h at_f", at));
     ISO_TRY(iso_momentum_bounds(ctx, m, at[0], bounds)); /* columns: h, low and high of each part, F of each line */
     find_range(*bounds, range);
@@ -111,16 +111,6 @@ static double number_of(const iso_record *r, int signal, int i, const char *key)
     return text && iso_number_read(text, strlen(text), &x) ? x : (double)NAN;
 }
 
-static const char *warning_of(const iso_record *r)
-{
-    const char *verdict = iso_record_get(r, "estimate.verdict");
-    if (verdict && strcmp(verdict, "chaotic") == 0)
-        return "this orbit is chaotic: it has no fixed frequencies, and these lines are of this stretch only";
-    if (verdict && strcmp(verdict, "undecided") == 0)
-        return "it is not decided whether this orbit has fixed frequencies: a longer one may tell";
-    return "";
-}
-
 /* Labels that have a place keep others away. */
 typedef struct labels {
     double at[2 * LABELLED], span;
@@ -151,10 +141,15 @@ static iso_status add_signal(iso_context *ctx, const iso_record *r, int signal, 
 
 static iso_status make_lines(iso_context *ctx, const iso_record *r, iso_picture *picture)
 {
-    const char *axis = iso_record_get(r, "estimate.axis"), *warning = warning_of(r);
+    const char *axis = iso_record_get(r, "estimate.axis"), *verdict = iso_record_get(r, "estimate.verdict"),
+               *warning = "";
     double low = INFINITY, high = -INFINITY, x;
     iso_record *lines;
     picture->layout = "frequencies";
+    if (verdict && strcmp(verdict, "chaotic") == 0)
+        warning = "this orbit is chaotic: it has no fixed frequencies, and these lines are of this stretch only";
+    if (verdict && strcmp(verdict, "undecided") == 0)
+        warning = "it is not decided whether this orbit has fixed frequencies: a longer one may tell";
     if (!axis) return ISO_FAIL_INPUT(ctx, "", "no picture: there is no map (h, F), and no frequency is estimated");
     ISO_TRY(iso_picture_add(ctx, picture, "lines", "signal frequency amplitude label'", &lines));
     for (int s = 0; s < 2; s++)
@@ -162,8 +157,8 @@ static iso_status make_lines(iso_context *ctx, const iso_record *r, iso_picture 
     labels l = {.span = high - low, .none = *warning != '\0'};
     for (int s = 0; s < 2; s++) ISO_TRY(add_signal(ctx, r, s, &l, lines));
     if (iso_record_rows(lines) == 0) return ISO_FAIL_INPUT(ctx, "", "a picture of lines needs at least one line");
-    ISO_TRY(iso_picture_say(ctx, picture, "axis", "%s", axis));
-    ISO_TRY(iso_picture_say(ctx, picture, "warning", "%s", warning));
+    ISO_TRY(iso_picture_line(ctx, picture, "axis", "%s", axis));
+    ISO_TRY(iso_picture_line(ctx, picture, "warning", "%s", warning));
     return iso_picture_set(ctx, picture, "labels", (double[]){l.count});
 }
 
@@ -188,8 +183,8 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     ISO_TRY(iso_record_params(ctx, r, &p));
     const bool map = has_map(r, &p, &m, at);
     ISO_TRY(map ? make_map(ctx, &m, at, picture) : make_lines(ctx, r, picture));
-    return iso_picture_say_title(ctx, q, picture,
-                                 map ? "Kinds of motion, by energy h and integral F" : "Spectrum of n(t)", &p);
+    return iso_picture_title(ctx, q, picture,
+                             map ? "Kinds of motion, by energy h and integral F" : "Spectrum of n(t)", &p);
 }
 
 const iso_picture_maker iso_picture_frequencies = {"frequencies", "Frequencies", {NULL}, .alone = true, .make = make};

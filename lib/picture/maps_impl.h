@@ -1,4 +1,4 @@
-/* maps_impl.h - what the pictures of sweeps share (sweep.c, sweep_maps.c), and ask of maps.c: scales and cells. */
+/* maps_impl.h - what the pictures of sweeps (sweep.c) ask of maps.c: scales and cells. */
 #ifndef ISO_PICTURE_MAPS_IMPL_H
 #define ISO_PICTURE_MAPS_IMPL_H
 
@@ -35,33 +35,7 @@ typedef struct iso_picture_maps {
  * The cells of a grid are rectangles; else a cell is all that is nearer to its point than to others. */
 iso_status iso_picture_cells(iso_context *ctx, const iso_picture_maps *maps, bool sizes, iso_record *cells);
 
-/* --- sweeps ----------------------------------------------------------------------------------------------------- */
-
-enum { ISO_SWEPT_AXES = 64, ISO_SWEPT_NAME = 64 };
-
-/* The rows of a result, and which columns are drawn. */
-typedef struct iso_swept {
-    const iso_record *r;
-    int axis[ISO_SWEPT_AXES], axes; /* those that vary, and differ from row to row */
-    int value, low, high;           /* -1: there is none; low -1: high is an error +- */
-    char text[2 * ISO_SWEPT_NAME];  /* what the value is */
-} iso_swept;
-
-/* What varies, as text; whether it is k. */
-const char *iso_swept_axis(const iso_swept *s, int column);
-bool iso_swept_is_k(const iso_swept *s, int column);
-
 /* For qsort: by the first number of a row, the smallest first. */
 int iso_picture_by_size(const void *a, const void *b);
-
-/* Adds k = 1 and k = -1, if they are on this axis: 1: x, 2: y. */
-iso_status iso_swept_marks(iso_context *ctx, const iso_picture_scale *scale, int axis, iso_record *marks);
-
-/* Lines: "sizes" and "value"; the title, of the values of a number, or of points. */
-iso_status iso_swept_say_value(iso_context *ctx, iso_picture *picture, const iso_swept *s, bool sizes);
-iso_status iso_swept_say_title(iso_context *ctx, iso_picture *picture, const iso_swept *s, const char *of);
-
-/* The picture of a sweep in which more than one number varies. */
-iso_status iso_swept_maps(iso_context *ctx, const iso_swept *s, iso_picture *picture);
 
 #endif

@@ -16,7 +16,11 @@ static const iso_picture_maker *const makers[] = {
     &iso_picture_cost,      &iso_picture_frequencies, &iso_picture_indicators, &iso_picture_periodic,
     &iso_picture_section,   &iso_picture_splitting,   &iso_picture_sweep,      &iso_picture_sweep_part,
     &iso_picture_trajectory};
-enum { MAKERS = sizeof makers / sizeof *makers, NAMES = 1000 /* an image of a section has 640 */ };
+enum {
+    MAKERS = sizeof makers / sizeof *makers,
+    NAMES = 1000 /* an image of a section has 640 */,
+    MOST_COLUMNS = 200
+};
 
 static const iso_picture_maker *maker_of(const char *kind)
 {
@@ -58,8 +62,8 @@ static iso_status check_options(iso_context *ctx, const iso_picture_request *q, 
         const int length = (int)strcspn(line, "=\n");
         snprintf(name, sizeof name, " %.*s ", length, line);
         if (length > 0 && m->options && strstr(m->options, name)) continue;
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "options", "--%.*s is not for a picture of a table '%s'",
-                                length, line, m->kind);
+        return ISO_FAIL_ARGUMENT(ctx, "options", "--%.*s is not for a picture of a table '%s'", length, line,
+                                 m->kind);
     }
     return ISO_OK;
 }
@@ -81,6 +85,30 @@ static void free_all(int count, iso_record *table[])
     for (int i = 0; i < count; i++) iso_record_free(table[i]), table[i] = NULL;
 }
 
+/* The table as it is, called `table`. */
+static iso_status make_plain(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
+{
+    const iso_record *r = q->table[0];
+    iso_record **copy = &picture->table[0];
+    double *row;
+    const char *names[MOST_COLUMNS];
+    const size_t columns = iso_record_columns(r);
+    if (columns > MOST_COLUMNS) return ISO_FAIL_INPUT(ctx, "", "no picture: there are %zu columns", columns);
+    for (size_t c = 0; c < columns; c++) names[c] = iso_record_name(r, c);
+    ISO_TRY(iso_record_create(ctx, columns, names, copy)); /* no lines: they would become variables */
+    for (size_t c = 0; c < columns; c++) iso_record_set_words(*copy, c, iso_record_has_words(r, c));
+    iso_record_set_kind(*copy, "table");
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        ISO_TRY(iso_record_append(ctx, *copy, &row));
+        for (size_t c = 0; c < columns; c++) {
+            row[c] = iso_record_const_row(r, i)[c];
+            if (iso_record_has_words(r, c))
+                ISO_TRY(iso_record_intern(ctx, *copy, iso_record_word(r, row[c]), &row[c]));
+        }
+    }
+    return ISO_OK;
+}
+
 iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], const char *options,
                             iso_picture *picture)
 {
@@ -90,7 +118,7 @@ iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], c
     const iso_picture_maker *m = iso_picture_option(&q, "columns", columns) ? &iso_picture_columns : maker_of(kind);
     const char *title = iso_record_get(table[0], "title");
     const bool of_ball = !title && iso_record_get(table[0], "k");
-    const iso_picture_maker plain = {.kind = kind, .shows = kind, .make = iso_picture_as_it_is};
+    const iso_picture_maker plain = {.kind = kind, .shows = kind, .make = make_plain};
     iso_params p;
     *picture = (iso_picture){.layout = NULL};
     if (!m && iso_record_rows(table[0]) == 0)
@@ -102,8 +130,8 @@ iso_status iso_picture_make(iso_context *ctx, const iso_record *const table[], c
     picture->layout = m->kind;
     iso_status status = m->make(ctx, &q, picture);
     if (status == ISO_OK && !iso_record_get(picture->table[0], "title"))
-        status = of_ball ? iso_picture_say_title(ctx, &q, picture, m->shows, &p)
-                         : iso_picture_say(ctx, picture, "title", "%s", title ? title : m->shows);
+        status = of_ball ? iso_picture_title(ctx, &q, picture, m->shows, &p)
+                         : iso_picture_line(ctx, picture, "title", "%s", title ? title : m->shows);
     free_all(ISO_PICTURE_ASIDE, picture->aside);
     if (status != ISO_OK) iso_picture_free(picture);
     return status;
@@ -156,7 +184,7 @@ iso_record **iso_picture_aside(iso_picture *picture)
     return &picture->aside[i];
 }
 
-iso_status iso_picture_say(iso_context *ctx, iso_picture *picture, const char *key, const char *format, ...)
+iso_status iso_picture_line(iso_context *ctx, iso_picture *picture, const char *key, const char *format, ...)
 {
     char *text;
     va_list arguments;
@@ -169,13 +197,13 @@ iso_status iso_picture_say(iso_context *ctx, iso_picture *picture, const char *k
     return status;
 }
 
-iso_status iso_picture_say_title(iso_context *ctx, const iso_picture_request *q, iso_picture *picture,
-                                 const char *seen, const iso_params *p)
+iso_status iso_picture_title(iso_context *ctx, const iso_picture_request *q, iso_picture *picture, const char *seen,
+                             const iso_params *p)
 {
     char ball[ISO_BALL_SIZE];
     const char *own = iso_record_get(q->table[0], "title");
-    if (own) return iso_picture_say(ctx, picture, "title", "%s", own);
-    return iso_picture_say(ctx, picture, "title", ISO_PICTURE_TITLE, seen, iso_ball_text(ball, p));
+    if (own) return iso_picture_line(ctx, picture, "title", "%s", own);
+    return iso_picture_line(ctx, picture, "title", ISO_PICTURE_TITLE, seen, iso_ball_text(ball, p));
 }
 
 iso_status iso_picture_set(iso_context *ctx, iso_picture *picture, const char *keys, const double numbers[])
@@ -183,30 +211,6 @@ iso_status iso_picture_set(iso_context *ctx, iso_picture *picture, const char *k
     char key[64];
     for (int used; sscanf(keys, "%63s%n", key, &used) == 1; keys += used)
         ISO_TRY(iso_record_set_numbers(ctx, picture->table[0], key, 1, numbers++));
-    return ISO_OK;
-}
-
-iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
-{
-    const iso_record *r = q->table[0];
-    iso_record **copy = &picture->table[0];
-    double *row;
-    const char *names[ISO_PICTURE_MOST_COLUMNS];
-    const size_t columns = iso_record_columns(r);
-    if (columns > ISO_PICTURE_MOST_COLUMNS)
-        return ISO_FAIL_INPUT(ctx, "", "no picture: there are %zu columns", columns);
-    for (size_t c = 0; c < columns; c++) names[c] = iso_record_name(r, c);
-    ISO_TRY(iso_record_create(ctx, columns, names, copy)); /* no lines: they would become variables */
-    for (size_t c = 0; c < columns; c++) iso_record_set_words(*copy, c, iso_record_has_words(r, c));
-    iso_record_set_kind(*copy, "table");
-    for (size_t i = 0; i < iso_record_rows(r); i++) {
-        ISO_TRY(iso_record_append(ctx, *copy, &row));
-        for (size_t c = 0; c < columns; c++) {
-            row[c] = iso_record_const_row(r, i)[c];
-            if (iso_record_has_words(r, c))
-                ISO_TRY(iso_record_intern(ctx, *copy, iso_record_word(r, row[c]), &row[c]));
-        }
-    }
     return ISO_OK;
 }
 

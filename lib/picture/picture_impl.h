@@ -26,10 +26,6 @@ extern const iso_picture_maker iso_picture_branch, iso_picture_chaos, iso_pictur
     iso_picture_compare, iso_picture_cost, iso_picture_frequencies, iso_picture_indicators, iso_picture_periodic,
     iso_picture_section, iso_picture_splitting, iso_picture_sweep, iso_picture_sweep_part, iso_picture_trajectory;
 
-/* Makes the table as it is, called `table`, of at most so many columns. */
-enum { ISO_PICTURE_MOST_COLUMNS = 200 };
-iso_status iso_picture_as_it_is(iso_context *ctx, const iso_picture_request *request, iso_picture *picture);
-
 /* The first of the further tables of this kind; NULL: there is none. */
 const iso_record *iso_picture_given(const iso_picture_request *request, const char *kind);
 
@@ -47,12 +43,12 @@ iso_record **iso_picture_aside(iso_picture *picture);
 
 /* Lines of the first table: a text; numbers, whose keys have a blank between; a title: that of table[0], else what is
  * seen, a gap, and the ball. */
-iso_status iso_picture_say(iso_context *ctx, iso_picture *picture, const char *key, const char *format, ...)
+iso_status iso_picture_line(iso_context *ctx, iso_picture *picture, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 iso_status iso_picture_set(iso_context *ctx, iso_picture *picture, const char *keys, const double numbers[]);
 #define ISO_PICTURE_TITLE "%s        %s"
-iso_status iso_picture_say_title(iso_context *ctx, const iso_picture_request *request, iso_picture *picture,
-                                 const char *seen, const iso_params *p);
+iso_status iso_picture_title(iso_context *ctx, const iso_picture_request *request, iso_picture *picture,
+                             const char *seen, const iso_params *p);
 
 /* A number of a table by its column, or by the name of its column (NaN: there is none); whether a word is this one; the
  * axis of the line "axis", 0 to 2 (-1: there is none); the least and the largest number of a column. */
@@ -138,7 +134,7 @@ iso_status iso_picture_add_chart(iso_context *ctx, iso_picture *picture, const c
 iso_status iso_picture_add_curves(iso_context *ctx, iso_picture *picture);
 
 /* The curve of a splitting with slope m and multiplier lambda (iso_separatrix_curve), with as many half returns beyond
- * the crossing as are needed to see the lobes (section_over.c). */
+ * the crossing as are needed to see the lobes (section.c). */
 iso_status iso_picture_separatrix(iso_context *ctx, double k, const double J[3], double level, double m,
                                   double lambda, iso_record **curve);
 

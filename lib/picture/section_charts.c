@@ -51,12 +51,12 @@ iso_status iso_picture_charts_options(iso_context *ctx, const iso_picture_reques
     double points;
     c->windowed = iso_picture_option(q, "window", text);
     if (c->windowed && !iso_picture_window(text, c->window))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "window",
-                                "window '%s': expected two ranges such as 0.5:1.2,-0.3:0.3, l up to pi and x up to 1",
-                                text);
+        return ISO_FAIL_ARGUMENT(
+            ctx, "window", "window '%s': expected two ranges such as 0.5:1.2,-0.3:0.3, l up to pi and x up to 1",
+            text);
     if (!iso_picture_option(q, "points", text)) return ISO_OK;
     if (!iso_number_read(text, strlen(text), &points) || !(points >= 1 && points <= 1e9))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "points", "points '%s': expected a number of points", text);
+        return ISO_FAIL_ARGUMENT(ctx, "points", "points '%s': expected a number of points", text);
     c->points = (size_t)points;
     return ISO_OK;
 }
@@ -240,36 +240,23 @@ static iso_status add_side(iso_context *ctx, const iso_picture_charts *c, const 
     ISO_TRY(iso_picture_set(ctx, picture, key[0], ends));
     if (image) ISO_TRY(add_image(ctx, f, spots, table));
     if (!image && rows > 0) ISO_TRY(iso_record_add(ctx, table, rows, iso_record_const_row(spots, 0)));
-    ISO_TRY(iso_picture_say(ctx, picture, key[1], "%s: %s%s = 0, %s%s increasing",
-                            ball         ? "ball"
-                            : c->eps > 0 ? "point"
-                                         : "directions of γ and M",
-                            n, index[0], n, index[0]));
-    ISO_TRY(iso_picture_say(ctx, picture, key[2], "%s,  where %s%s = cos %s, %s%s = −sin %s", angle, n, index[1],
-                            angle, n, index[2], angle));
-    if (ball) return iso_picture_say(ctx, picture, key[3], "ω%s / |ω|", index[0]);
-    return c->eps > 0 ? iso_picture_say(ctx, picture, key[3], "L = M%s, in the units of the scene", index[0])
-                      : iso_picture_say(ctx, picture, key[3], "x = M%s / |M|", index[0]);
-}
-
-/* The scale of the rotation numbers; nothing: there are none, or the colours are hues. */
-static iso_status say_range(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings,
-                            iso_picture *picture)
-{
-    double low = INFINITY, high = -INFINITY;
-    for (size_t i = 0; !c->few && i < iso_record_rows(crossings); i++) {
-        const double *row = iso_record_const_row(crossings, i), x = row[ISO_PICTURE_COLOUR];
-        if (row[ISO_PICTURE_SHADE] == ISO_PICTURE_COLOURED) low = fmin(low, x), high = fmax(high, x);
-    }
-    const bool bar = low <= high;
-    if (bar && high - low < 1e-3) low -= 5e-4, high += 5e-4;
-    return iso_picture_set(ctx, picture, "bar low high", (double[]){bar, bar ? low : 0, bar ? high : 1});
+    ISO_TRY(iso_picture_line(ctx, picture, key[1], "%s: %s%s = 0, %s%s increasing",
+                             ball         ? "ball"
+                             : c->eps > 0 ? "point"
+                                          : "directions of γ and M",
+                             n, index[0], n, index[0]));
+    ISO_TRY(iso_picture_line(ctx, picture, key[2], "%s,  where %s%s = cos %s, %s%s = −sin %s", angle, n, index[1],
+                             angle, n, index[2], angle));
+    if (ball) return iso_picture_line(ctx, picture, key[3], "ω%s / |ω|", index[0]);
+    return c->eps > 0 ? iso_picture_line(ctx, picture, key[3], "L = M%s, in the units of the scene", index[0])
+                      : iso_picture_line(ctx, picture, key[3], "x = M%s / |M|", index[0]);
 }
 
 iso_status iso_picture_charts_add(iso_context *ctx, const iso_picture_charts *c, const iso_record *crossings,
                                   iso_picture *picture)
 {
     iso_record *boundary, **spots[2]; /* the ball's, the point's */
+    double low = INFINITY, high = -INFINITY;
     frame f[2];
     bool image = false;
     for (int i = 0; i < 2; i++) {
@@ -280,7 +267,13 @@ iso_status iso_picture_charts_add(iso_context *ctx, const iso_picture_charts *c,
     }
     for (int i = 0; i < 2; i++) ISO_TRY(add_side(ctx, c, &f[i], *spots[i], i == 0, image, picture));
     ISO_TRY(iso_picture_set(ctx, picture, "images window few", (double[]){image, c->windowed, c->few}));
-    ISO_TRY(say_range(ctx, c, crossings, picture));
+    for (size_t i = 0; !c->few && i < iso_record_rows(crossings); i++) { /* the scale of the rotation numbers */
+        const double *row = iso_record_const_row(crossings, i), x = row[ISO_PICTURE_COLOUR];
+        if (row[ISO_PICTURE_SHADE] == ISO_PICTURE_COLOURED) low = fmin(low, x), high = fmax(high, x);
+    }
+    const bool bar = low <= high; /* else there are none, or the colours are hues */
+    if (bar && high - low < 1e-3) low -= 5e-4, high += 5e-4;
+    ISO_TRY(iso_picture_set(ctx, picture, "bar low high", (double[]){bar, bar ? low : 0, bar ? high : 1}));
     ISO_TRY(iso_picture_add(ctx, picture, "boundary", "l low high", &boundary));
     for (int i = 0; i <= BOUNDARY; i++) {
         const double l = M_PI * (2.0 * i / BOUNDARY - 1), G = largest_momentum(c, l);

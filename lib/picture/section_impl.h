@@ -1,9 +1,8 @@
 /* section_impl.h - the picture of a section: both models side by side, as charts of one section n_a = 0.
  *
- *     section.c           the kinds "section" and "periodic"
+ *     section.c           the kinds "section" and "periodic", and what is drawn over them
  *     section_points.c    collects crossings row by row, in bounded memory: which orbits are grey, rotation numbers
  *     section_charts.c    from points (l, x) to the spots of both charts
- *     section_over.c      what is drawn over them
  *
  * Tables of the picture, SIDE is ball or point:
  * - SIDE: spots; right, up; shade: an iso_picture_shade; colour: if `bar` the rotation number, else a hue in [0, 1); 0
@@ -104,7 +103,7 @@ typedef struct iso_picture_spot {
 } iso_picture_spot;
 iso_picture_spot iso_picture_place(const iso_picture_charts *c, bool ball, double l, double x);
 
-/* Adds what is drawn over it (section_over.c); over[] may have other tables, too, which are passed over. */
+/* Adds what is drawn over it (section.c); over[] may have other tables, too, which are passed over. */
 iso_status iso_picture_over(iso_context *ctx, const iso_picture_charts *c, const iso_record *const over[],
                             iso_picture *picture);
 

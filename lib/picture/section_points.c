@@ -189,21 +189,16 @@ void iso_picture_points_verdict(iso_picture_points *p, double l, double x, const
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-/* The images by the reversors that the return map has. They carry an orbit to an orbit with the same rotation number:
- * so each island shows where one of its images has a start. */
-static unsigned images_of(unsigned reversors)
-{
-    /* the reversors that make image n of iso_picture_image, as bits */
-    static const unsigned makes[8] = {0, 2, 2 | 4, 4, 1, 1 | 2, 1 | 2 | 4, 1 | 4};
-    unsigned images = 0;
-    for (unsigned n = 0; n < 8; n++)
-        if (!(makes[n] & ~reversors)) images |= 1u << n;
-    return images;
-}
-
 /* Without verdicts an orbit without a rotation number is grey. any: which shades there are. */
 static void find_shades(iso_picture_points *p, bool any[3])
 {
+    /* The images by the reversors that the return map has carry an orbit to an orbit with the same rotation number: so
+     * each island shows where one of its images has a start. makes: the reversors that make image n of
+     * iso_picture_image, as bits. */
+    static const unsigned makes[8] = {0, 2, 2 | 4, 4, 1, 1 | 2, 1 | 2 | 4, 1 | 4};
+    unsigned images = 0;
+    for (unsigned n = 0; n < 8; n++)
+        if (!(makes[n] & ~p->reversors)) images |= 1u << n;
     for (size_t i = 0; i < iso_record_rows(p->orbits); i++) {
         double *orbit = iso_record_row(p->orbits, i);
         if (orbit[SHADE] == ISO_PICTURE_COLOURED && isnan(orbit[ROTATION]))
@@ -215,7 +210,7 @@ static void find_shades(iso_picture_points *p, bool any[3])
         const bool coloured = orbit[SHADE] == ISO_PICTURE_COLOURED;
         row[ISO_PICTURE_SHADE] = orbit[SHADE];
         row[ISO_PICTURE_COLOUR] = coloured ? orbit[ROTATION] : 0;
-        row[ISO_PICTURE_IMAGES] = coloured ? images_of(p->reversors) : 1;
+        row[ISO_PICTURE_IMAGES] = coloured ? images : 1;
         any[(int)orbit[SHADE]] = true;
     }
 }
@@ -238,14 +233,14 @@ iso_status iso_picture_points_make(iso_context *ctx, iso_picture_points *p, cons
     ISO_TRY(iso_picture_charts_add(ctx, &p->charts, p->kept, picture));
     ISO_TRY(iso_picture_add(ctx, picture, "orbits", "orbit shade rotation", &orbits));
     ISO_TRY(iso_record_add(ctx, orbits, count, iso_record_const_row(p->orbits, 0)));
-    ISO_TRY(iso_picture_say(ctx, picture, "title", "%s: %zu orbit%s%s", iso_ball_text(ball, &p->charts.params), count,
-                            count == 1 ? "" : "s",
-                            p->reversors && any[ISO_PICTURE_COLOURED] ? " and mirror images" : ""));
-    ISO_TRY(iso_picture_say(ctx, picture, "grey_means", "%s",
-                            !any[ISO_PICTURE_GREY] ? ""
-                            : p->verdicts          ? "chaotic"
-                            : p->parted            ? "ball and point part: chaotic; or too few crossings to tell"
-                                                   : "chaotic, or too few crossings to tell"));
-    ISO_TRY(iso_picture_say(ctx, picture, "dark_means", "%s", any[ISO_PICTURE_DARK] ? "undecided" : ""));
+    ISO_TRY(iso_picture_line(ctx, picture, "title", "%s: %zu orbit%s%s", iso_ball_text(ball, &p->charts.params),
+                             count, count == 1 ? "" : "s",
+                             p->reversors && any[ISO_PICTURE_COLOURED] ? " and mirror images" : ""));
+    ISO_TRY(iso_picture_line(ctx, picture, "grey_means", "%s",
+                             !any[ISO_PICTURE_GREY] ? ""
+                             : p->verdicts          ? "chaotic"
+                             : p->parted            ? "ball and point part: chaotic; or too few crossings to tell"
+                                                    : "chaotic, or too few crossings to tell"));
+    ISO_TRY(iso_picture_line(ctx, picture, "dark_means", "%s", any[ISO_PICTURE_DARK] ? "undecided" : ""));
     return iso_picture_over(ctx, &p->charts, over, picture);
 }

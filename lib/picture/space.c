@@ -227,7 +227,7 @@ static iso_status add_mark(iso_context *ctx, const scenery *s, const char *sign,
 }
 
 /* What must fit into the views: the path, the ball, the sphere. */
-static iso_status say_extents(iso_context *ctx, const scenery *s, iso_picture *picture)
+static iso_status set_extents(iso_context *ctx, const scenery *s, iso_picture *picture)
 {
     static const char *const keys[] = {"right_low right_high", "away_low away_high", "up_low up_high"};
     const double room = is_narrow(s) ? 0 : s->ball;
@@ -239,18 +239,18 @@ static iso_status say_extents(iso_context *ctx, const scenery *s, iso_picture *p
     return ISO_OK;
 }
 
-static iso_status say_scenery(iso_context *ctx, const scenery *s, iso_picture *picture)
+static iso_status set_scenery(iso_context *ctx, const scenery *s, iso_picture *picture)
 {
     const bool dots = !s->plane && !iso_picture_joined(s->rows, s->place);
-    ISO_TRY(iso_picture_say(ctx, picture, "paths",
-                            s->centre < 0      ? "contact"
-                            : shows_contact(s) ? "centre contact"
-                                               : "centre"));
-    ISO_TRY(iso_picture_say(ctx, picture, "above", "%s", s->above));
-    ISO_TRY(iso_picture_say(ctx, picture, "side", "%s", s->plane && s->level ? "" : s->side));
-    ISO_TRY(iso_picture_say(ctx, picture, "right_name", "%s", s->right_name));
-    ISO_TRY(iso_picture_say(ctx, picture, "away_name", "%s", s->away_name));
-    ISO_TRY(iso_picture_say(ctx, picture, "up_name", "%s", s->up_name));
+    ISO_TRY(iso_picture_line(ctx, picture, "paths",
+                             s->centre < 0      ? "contact"
+                             : shows_contact(s) ? "centre contact"
+                                                : "centre"));
+    ISO_TRY(iso_picture_line(ctx, picture, "above", "%s", s->above));
+    ISO_TRY(iso_picture_line(ctx, picture, "side", "%s", s->plane && s->level ? "" : s->side));
+    ISO_TRY(iso_picture_line(ctx, picture, "right_name", "%s", s->right_name));
+    ISO_TRY(iso_picture_line(ctx, picture, "away_name", "%s", s->away_name));
+    ISO_TRY(iso_picture_line(ctx, picture, "up_name", "%s", s->up_name));
     ISO_TRY(iso_picture_set(ctx, picture, "dots ball support solid strip",
                             (double[]){dots, s->ball, s->support, is_solid(s), is_narrow(s)}));
     if (s->plane && !s->level &&
@@ -262,7 +262,7 @@ static iso_status say_scenery(iso_context *ctx, const scenery *s, iso_picture *p
         if (isfinite(slope))
             ISO_TRY(iso_picture_set(ctx, picture, "slope at", (double[]){slope, contact[2] - slope * contact[0]}));
     }
-    return say_extents(ctx, s, picture);
+    return set_extents(ctx, s, picture);
 }
 
 /* --- all -------------------------------------------------------------------------------------------------------- */
@@ -289,7 +289,7 @@ static iso_status look_around(iso_context *ctx, const iso_record *r, const doubl
     }
     if (up) copy(up, s->axis[UP], 3);
     if (!(fabs(norm(s->axis[UP]) - 1) <= ALIKE))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "up", "a picture of space: up is no unit vector");
+        return ISO_FAIL_ARGUMENT(ctx, "up", "a picture of space: up is no unit vector");
     choose_directions(s, normal);
     return ISO_OK;
 }
@@ -303,7 +303,7 @@ iso_status iso_picture_space(iso_context *ctx, const iso_record *r, const double
     scenery s;
     iso_record *path, *marks;
     ISO_TRY(look_around(ctx, r, up, plane, &s));
-    ISO_TRY(say_scenery(ctx, &s, picture));
+    ISO_TRY(set_scenery(ctx, &s, picture));
     ISO_TRY(iso_picture_add(ctx, picture, "path", "of' right away up above side", &path));
     if (s.centre >= 0) ISO_TRY(add_path(ctx, &s, "centre", s.centre, path));
     if (shows_contact(&s)) ISO_TRY(add_path(ctx, &s, "contact", s.contact, path));

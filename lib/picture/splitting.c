@@ -26,12 +26,12 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
         ISO_TRY(iso_record_add(ctx, rows, 1,
                                (double[]){at, sign ? size : size + error, size - error, size + error, sign}));
     }
-    ISO_TRY(iso_picture_say(ctx, picture, "over", "%s", over));
+    ISO_TRY(iso_picture_line(ctx, picture, "over", "%s", over));
     ISO_TRY(iso_picture_set(ctx, picture, "sizes curves", (double[]){sizes, curve != NULL}));
     ISO_TRY(iso_picture_add(ctx, picture, "curve", "u x", &copy));
     if (!curve) return ISO_OK;
     const char *at = iso_record_get(curve, "at");
-    ISO_TRY(iso_picture_say(ctx, picture, "at", "%s", at ? at : ""));
+    ISO_TRY(iso_picture_line(ctx, picture, "at", "%s", at ? at : ""));
     ISO_TRY(iso_picture_set(ctx, picture, "axis", (double[]){iso_picture_axis(curve) + 1}));
     int u;
     ISO_TRY(iso_picture_find(ctx, curve, 2, (const char *const[]){"u", "x"}, &u));

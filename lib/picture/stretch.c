@@ -60,28 +60,22 @@ static iso_status follow(const pair *p, double *end, iso_record *curve)
     return ISO_OK;
 }
 
-/* The lines that "compare" reads. */
-static iso_status describe(iso_context *ctx, const iso_scene *scene, double end, iso_record *states)
-{
-    const iso_effects acting = iso_scene_acting(scene);
-    iso_record_set_kind(states, "compare");
-    ISO_TRY(iso_record_set_numbers(ctx, states, "k", 1, &scene->params.k));
-    ISO_TRY(iso_record_set_numbers(ctx, states, "J", 3, scene->params.J));
-    ISO_TRY(iso_record_set_numbers(ctx, states, "compared", 1, &end));
-    return iso_record_set(ctx, states, "field", iso_effects_have_image(&acting) ? "1" : "0");
-}
-
 iso_status iso_picture_stretch(iso_context *ctx, const iso_scene *scene, double end, iso_record **states,
                                iso_record **curve)
 {
     static const char *const names[] = {"t", "s", "n1", "n2", "n3", "gamma1", "gamma2", "gamma3"};
+    const iso_effects acting = iso_scene_acting(scene);
     pair p = {ctx, NULL, NULL};
     *curve = *states = NULL;
-    iso_status status = iso_record_create(ctx, COLUMNS, names, curve);
-    if (status == ISO_OK) status = iso_record_create(ctx, COLUMNS, names, states);
-    if (status == ISO_OK) status = describe(ctx, scene, end, *states);
-    if (status == ISO_OK) iso_record_set_kind(*curve, "curve");
-    if (status == ISO_OK) status = open_one(ctx, scene, ISO_BACKEND_BALL, &p.ball);
+    ISO_TRY(iso_record_create(ctx, COLUMNS, names, curve));
+    ISO_TRY(iso_record_create(ctx, COLUMNS, names, states));
+    iso_record_set_kind(*curve, "curve");
+    iso_record_set_kind(*states, "compare"); /* which reads these lines: */
+    ISO_TRY(iso_record_set_numbers(ctx, *states, "k", 1, &scene->params.k));
+    ISO_TRY(iso_record_set_numbers(ctx, *states, "J", 3, scene->params.J));
+    ISO_TRY(iso_record_set_numbers(ctx, *states, "compared", 1, &end));
+    ISO_TRY(iso_record_set(ctx, *states, "field", iso_effects_have_image(&acting) ? "1" : "0"));
+    iso_status status = open_one(ctx, scene, ISO_BACKEND_BALL, &p.ball);
     if (status == ISO_OK) status = open_one(ctx, scene, ISO_BACKEND_POINT, &p.point);
     if (status == ISO_OK) status = follow(&p, &end, *curve);
     for (int i = 0; status == ISO_OK && i < ISO_STRETCH_STATES; i++) {

@@ -47,8 +47,8 @@ static iso_status find_twin(iso_context *ctx, iso_picture *picture, parts *p)
     if (status == ISO_OK) *(to == ISO_POINT ? &p->point : &p->ball) = *twin;
     const bool orbits = iso_record_find(p->file, ISO_ORBIT_COLUMN) >= 0; /* of different energies */
     if (status != ISO_NOT_MAPPED && !(orbits && status == ISO_BAD_INPUT)) return status;
-    return iso_picture_say(ctx, picture, "note", "%s is drawn alone: %s", to == ISO_POINT ? "the ball" : "the point",
-                           iso_context_message(ctx));
+    return iso_picture_line(ctx, picture, "note", "%s is drawn alone: %s", to == ISO_POINT ? "the ball" : "the point",
+                            iso_context_message(ctx));
 }
 
 /* --- spheres and space ------------------------------------------------------------------------------------------ */
@@ -78,38 +78,32 @@ static iso_status add_spheres(iso_context *ctx, iso_picture *picture, const part
     if (p->ball) {
         const iso_record *touched;
         ISO_TRY(find_trace(ctx, picture, p, &touched));
-        ISO_TRY(iso_picture_say(ctx, picture, "on_ball",
-                                touched ? "on the ball: where it touched the support" : ISO_PICTURE_OF_BALL));
+        ISO_TRY(iso_picture_line(ctx, picture, "on_ball",
+                                 touched ? "on the ball: where it touched the support" : ISO_PICTURE_OF_BALL));
         ISO_TRY(
             iso_picture_sphere(ctx, picture, "ball", touched ? touched : p->ball, touched ? trace : iso_picture_n));
     }
     if (!p->point) return ISO_OK;
-    ISO_TRY(iso_picture_say(ctx, picture, "on_point", ISO_PICTURE_OF_POINT));
+    ISO_TRY(iso_picture_line(ctx, picture, "on_point", ISO_PICTURE_OF_POINT));
     return iso_picture_sphere(ctx, picture, "point", p->point, iso_picture_gamma);
 }
 
 /* --- charts ----------------------------------------------------------------------------------------------------- */
 
-/* Whether no column but the first changes by more than rounding of the largest number of them. */
-static bool is_constant(const iso_record *r)
-{
-    double size = 0, most = 0, range[2];
-    for (int c = 1; c < (int)iso_record_columns(r); c++) {
-        iso_picture_range(r, c, range);
-        size = fmax(size, fmax(fabs(range[0]), fabs(range[1])));
-        most = fmax(most, range[1] - range[0]);
-    }
-    return !(most > 1e-9 * size);
-}
-
 static iso_status add_energies(iso_context *ctx, iso_picture *picture, const parts *p)
 {
     static const char *const names[] = {"energy h", "kinetic", "potential"};
     iso_record **energies = iso_picture_aside(picture);
+    double size = 0, most = 0, range[2];
     /* of a free ball the energy is one of the integrals, whose drift is drawn */
     if (model_of(p->file) != ISO_BALL || !iso_record_get(p->file, "effects")) return ISO_OK;
     ISO_TRY(iso_record_energies(ctx, &p->params, p->file, energies));
-    if (!*energies || is_constant(*energies)) return ISO_OK;
+    for (int c = 1; *energies && c < (int)iso_record_columns(*energies); c++) {
+        iso_picture_range(*energies, c, range);
+        size = fmax(size, fmax(fabs(range[0]), fabs(range[1])));
+        most = fmax(most, range[1] - range[0]);
+    }
+    if (!(most > 1e-9 * size)) return ISO_OK; /* nothing changes by more than rounding */
     return iso_picture_add_chart(ctx, picture, "energies", *energies, names, ISO_PICTURE_EXTREMES);
 }
 
@@ -150,7 +144,7 @@ static iso_status add_pressure(iso_context *ctx, iso_picture *picture, const iso
     for (int i = 0; i < count; i++) ISO_TRY(iso_record_add(ctx, losses, 1, &iso_record_const_row(r, lost[i])[clock]));
     if (count == 0) return ISO_OK;
     const bool ends = lost[count - 1] + 1 == iso_record_rows(r); /* a ball that is held on both sides goes on */
-    return iso_picture_say(ctx, picture, "lost", ends ? "contact lost" : "pressure 0");
+    return iso_picture_line(ctx, picture, "lost", ends ? "contact lost" : "pressure 0");
 }
 
 /* ds/dt and dtau/dt in every row, each with the mean 1: powers of q = (gamma, J gamma), (16) and (24) of the theory.
@@ -196,8 +190,8 @@ static iso_status add_drifts(iso_context *ctx, iso_picture *picture, const parts
                              iso_picture_symbol(iso_record_name(*drifts, (size_t)c)));
     }
     if (largest < 1000 * DBL_EPSILON)
-        return iso_picture_say(ctx, picture, "noise", "integrals hold up to rounding: no drift above %.0e of %s",
-                               largest, names);
+        return iso_picture_line(ctx, picture, "noise", "integrals hold up to rounding: no drift above %.0e of %s",
+                                largest, names);
     return iso_picture_add_chart(ctx, picture, "drift", *drifts, NULL, ISO_PICTURE_LARGEST);
 }
 
@@ -218,12 +212,12 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
     ISO_TRY(add_pressure(ctx, picture, p.ball));
     ISO_TRY(add_paces(ctx, picture, &p));
     ISO_TRY(add_drifts(ctx, picture, &p));
-    return iso_picture_say_title(ctx, q, picture,
-                                 space               ? "The path of a ball"
-                                 : p.ball && p.point ? "One orbit on both spheres"
-                                 : p.ball            ? "A ball without a twin"
-                                                     : "A point without a twin",
-                                 &p.params);
+    return iso_picture_title(ctx, q, picture,
+                             space               ? "The path of a ball"
+                             : p.ball && p.point ? "One orbit on both spheres"
+                             : p.ball            ? "A ball without a twin"
+                                                 : "A point without a twin",
+                             &p.params);
 }
 
 const iso_picture_maker iso_picture_trajectory = {"trajectory", "A trajectory", {NULL}, .options = " ", .make = make};

@@ -137,6 +137,10 @@ iso_status iso_scene_apply(iso_context *ctx, const iso_scene_changes *change, is
         *(T *)options = __VA_ARGS__;                                                                                 \
     }
 
+/* What every study begins with; begin() is in its file. */
+#define ISO_STUDY_AS(name_, request, rows, doc_)                                                                     \
+    .name = name_, .doc = doc_, .options = rows, .size = sizeof(request), .begin = begin
+
 /* Makes `found` the struct of the result, with what describes and frees it, and returns it; NULL, for which there was
  * no memory, is never freed. */
 void *iso_study_keep(iso_study_result *result, void *found, const iso_field *fields, void (*free)(void *found));

@@ -97,7 +97,7 @@ static iso_status make_columns(iso_context *ctx, iso_sweep *s)
 static size_t chunk_of(const iso_sweep *s)
 {
     enum { CHUNKS = 64, LANES = 8 };
-    size_t chunk = s->head.count / CHUNKS + 1;
+    size_t chunk = s->plan->family.count / CHUNKS + 1;
     if (chunk > LANES / 2) chunk = (chunk + LANES - 1) / LANES * LANES;
     for (const iso_sweep_job *job = s->job; job < s->job + s->plan->requests; job++) {
         const size_t fits = job->quantity.chunk ? job->quantity.chunk(job) : job->quantity.points;
@@ -115,18 +115,6 @@ static const char *find_vectors(const char *asked)
     return kind;
 }
 
-static void make_head(iso_sweep *s)
-{
-    iso_sweep_head *h = &s->head;
-    h->count = s->plan->family.count;
-    h->chunk = s->plan->chunk > 0 ? s->plan->chunk : chunk_of(s);
-    h->version = ISO_VERSION;
-    h->text = s->plan->text ? s->plan->text : "";
-    h->scene = s->plan->scene;
-    memcpy(h->hash, s->plan->hash, sizeof h->hash);
-    iso_sweep_hash_head(h->hash, h, find_vectors("avx2") != NULL, false); /* an orbit that is alone takes these */
-}
-
 iso_status iso_sweep_create(iso_context *ctx, const iso_sweep_plan *plan, iso_sweep **sweep)
 {
     ISO_DEFAULT_ARITHMETIC;
@@ -139,11 +127,17 @@ iso_status iso_sweep_create(iso_context *ctx, const iso_sweep_plan *plan, iso_sw
     snprintf(s->head.vectors, sizeof s->head.vectors, "%s", vectors);
     s->column = calloc((size_t)plan->family.columns + ISO_SWEEP_REQUESTS * ISO_SWEEP_NUMBERS, sizeof *s->column);
     const iso_status status = s->column ? make_columns(ctx, s) : iso_context_no_memory(ctx, "a sweep");
-    if (status == ISO_OK)
-        make_head(s), *sweep = s;
-    else
-        iso_sweep_free(s);
-    return status;
+    if (status != ISO_OK) return iso_sweep_free(s), status;
+    iso_sweep_head *h = &s->head;
+    h->count = plan->family.count;
+    h->chunk = plan->chunk > 0 ? plan->chunk : chunk_of(s);
+    h->version = ISO_VERSION;
+    h->text = plan->text ? plan->text : "";
+    h->scene = plan->scene;
+    memcpy(h->hash, plan->hash, sizeof h->hash);
+    iso_sweep_hash_head(h->hash, h, find_vectors("avx2") != NULL, false); /* an orbit that is alone takes these */
+    *sweep = s;
+    return ISO_OK;
 }
 
 void iso_sweep_free(iso_sweep *s)
@@ -161,34 +155,25 @@ const iso_sweep_head *iso_sweep_head_of(const iso_sweep *s)
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-/* Errors: ISO_NO_MEMORY, ISO_STOPPED; a point without a scene is a failed row. */
-static iso_status make_points(iso_context *ctx, const iso_sweep *s, size_t first, iso_sweep_batch *b)
-{
-    const iso_family *f = &s->plan->family;
-    iso_sweep_rows *r = b->rows;
-    iso_status status = ISO_OK;
-    for (size_t i = 0; i < b->count && status == ISO_OK; i++) {
-        double *row = r->number + i * (size_t)r->columns;
-        for (int c = 0; c < r->columns; c++) row[c] = NAN;
-        r->status[i] = ISO_OK;
-        r->reason[i][0] = '\0';
-        status = iso_sweep_note(ctx, NULL, b, i, f->scene(ctx, f->data, first + i, &b->room[i], row));
-        b->scene[i] = r->status[i] == ISO_OK ? &b->room[i] : NULL;
-    }
-    return status;
-}
-
 iso_status iso_sweep_compute_points(iso_context *ctx, const iso_sweep *s, size_t first, size_t count,
                                     iso_sweep_rows *rows)
 {
     ISO_DEFAULT_ARITHMETIC;
+    const iso_family *f = &s->plan->family;
     iso_sweep_batch b = {.count = count, .rows = rows};
     rows->first = first;
     rows->count = count;
     b.room = malloc((count + 1) * sizeof *b.room);
     b.scene = malloc((count + 1) * sizeof *b.scene);
-    const bool memory = b.room && b.scene;
-    iso_status status = memory ? make_points(ctx, s, first, &b) : iso_context_no_memory(ctx, "%zu points", count);
+    iso_status status = b.room && b.scene ? ISO_OK : iso_context_no_memory(ctx, "%zu points", count);
+    for (size_t i = 0; i < count && status == ISO_OK; i++) { /* a point without a scene is a failed row */
+        double *row = rows->number + i * (size_t)rows->columns;
+        for (int c = 0; c < rows->columns; c++) row[c] = NAN;
+        rows->status[i] = ISO_OK;
+        rows->reason[i][0] = '\0';
+        status = iso_sweep_note(ctx, NULL, &b, i, f->scene(ctx, f->data, first + i, &b.room[i], row));
+        b.scene[i] = rows->status[i] == ISO_OK ? &b.room[i] : NULL;
+    }
     for (const iso_sweep_job *job = s->job; job < s->job + s->plan->requests && status == ISO_OK; job++)
         status = iso_sweep_measure(ctx, job, &b);
     free(b.room);

@@ -78,16 +78,10 @@ struct iso_sweep_file {
  * ISO_NO_MEMORY. */
 iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples);
 
-/* The keys of a mapping must be among `names`, each once. Errors: ISO_BAD_INPUT. */
-iso_status iso_sweep_check_keys(iso_yaml *y, const yaml_node_t *mapping, const char *what, size_t count,
-                                const char *const names[]);
-
-/* Reads a mapping, which has no other keys than these settings; or those of its keys that are settings. setting i
- * becomes value[i]. settings NULL: it is empty. Errors: ISO_BAD_INPUT. */
+/* Reads a mapping, which has no other keys than these settings: setting i becomes value[i]. settings NULL: it is
+ * empty. Errors: ISO_BAD_INPUT. */
 iso_status iso_sweep_read_mapping(iso_yaml *y, const yaml_node_t *mapping, const char *what,
                                   const iso_sweep_setting settings[], double value[]);
-iso_status iso_sweep_read_settings(iso_yaml *y, const yaml_node_t *mapping, const iso_sweep_setting settings[],
-                                   double value[]);
 
 /* Value j of a range of a->count values; with equal steps 0.1, 0.2, ... are what one writes. */
 double iso_sweep_in_range(const iso_sweep_axis *a, size_t j);

@@ -17,6 +17,62 @@
 
 enum { MOST_QUANTITIES = 32 };
 
+/* --- settings --------------------------------------------------------------------------------------------------- */
+
+/* The keys of a mapping must be among `names`, each once. Errors: ISO_BAD_INPUT. */
+static iso_status check_keys(iso_yaml *y, const yaml_node_t *mapping, const char *what, size_t count,
+                             const char *const names[])
+{
+    if (mapping->type != YAML_MAPPING_NODE) return iso_yaml_expected(y, mapping, what, "a mapping");
+    size_t i;
+    for (const yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < mapping->data.mapping.pairs.top; p++)
+        ISO_TRY(iso_yaml_key(y, mapping, iso_yaml_node(y, p->key), "key", count, names, &i));
+    return ISO_OK;
+}
+
+static iso_status read_setting(iso_yaml *y, const yaml_node_t *node, const iso_sweep_setting *s, double *value)
+{
+    bool flag = false;
+    int word;
+    if (s->word) {
+        ISO_TRY(iso_yaml_word(y, node, s->name, s->word, ~0u, &word));
+        return *value = word, ISO_OK;
+    }
+    const iso_status status =
+        s->flag ? iso_yaml_flag(y, node, s->name, &flag) : iso_yaml_number(y, node, s->name, value);
+    if (s->flag) *value = flag;
+    const bool fits = s->least == s->most || (*value >= s->least && *value <= s->most);
+    if (status != ISO_OK || (fits && (!s->whole || *value == floor(*value)))) return status;
+    return iso_yaml_fail(y, node->start_mark, "'%s' is %s, it must be %sfrom %s to %s", s->name, ISO_SHORT(*value),
+                         s->whole ? "a whole number " : "", ISO_SHORT(s->least), ISO_SHORT(s->most));
+}
+
+/* Reads those of its keys that are settings. */
+static iso_status read_settings(iso_yaml *y, const yaml_node_t *mapping, const iso_sweep_setting settings[],
+                                double value[])
+{
+    iso_status status = ISO_OK;
+    for (const iso_sweep_setting *s = settings; s && s->name && status == ISO_OK; s++, value++) {
+        const yaml_node_t *node;
+        *value = s->usual;
+        if (iso_yaml_find(y, mapping, s->name, NULL, &node))
+            status = read_setting(y, node, s, value);
+        else if (s->missing)
+            status = iso_yaml_fail(y, mapping->start_mark, "missing '%s' in %s", s->name, s->missing);
+    }
+    return status;
+}
+
+iso_status iso_sweep_read_mapping(iso_yaml *y, const yaml_node_t *mapping, const char *what,
+                                  const iso_sweep_setting settings[], double value[])
+{
+    const char *names[ISO_SWEEP_SETTINGS];
+    size_t count = 0;
+    for (const iso_sweep_setting *s = settings; s && s->name; s++) names[count++] = s->name;
+    ISO_TRY(check_keys(y, mapping, what, count, names));
+    return read_settings(y, mapping, settings, value);
+}
+
 /* --- the scene -------------------------------------------------------------------------------------------------- */
 
 static iso_status load_scene_file(iso_context *ctx, iso_sweep_file *f, const yaml_node_t *node)
@@ -129,7 +185,7 @@ static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
     size_t count = 0;
     iso_yaml *y = &f->yaml;
     for (; count < MOST_QUANTITIES && iso_sweep_quantity_at((int)count, &q); count++) names[count] = q.name;
-    iso_status status = iso_sweep_check_keys(y, measure, "measure", count, names);
+    iso_status status = check_keys(y, measure, "measure", count, names);
     if (status != ISO_OK) return status;
     const yaml_node_pair_t *end = measure->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = measure->data.mapping.pairs.start; p < end && status == ISO_OK; p++) {
@@ -151,24 +207,6 @@ static iso_status read_measure(iso_sweep_file *f, const yaml_node_t *measure)
 
 /* --- for how long ----------------------------------------------------------------------------------------------- */
 
-/* What goes on to a time only has no number of turns, and the other way round. */
-static iso_status check_until(iso_sweep_file *f, const yaml_node_t *until)
-{
-    const bool turns = !isnan(f->plan.turns);
-    bool used = false;
-    for (int i = 0; i < f->plan.requests; i++) {
-        const char *name = f->plan.request[i].name;
-        const iso_study *study = iso_sweep_study(name);
-        const bool by_turns = iso_study_option_find(study, "turns", 5),
-                   by_time = iso_study_option_find(study, "t-end", 5);
-        used = used || (turns ? by_turns : by_time);
-        if (by_turns != by_time && by_turns != turns)
-            return ISO_FAIL_AT(f, until, "'%s' needs 'until: {%s: ...}'", name, turns ? "time" : "turns");
-    }
-    if (used) return ISO_OK;
-    return ISO_FAIL_AT(f, until, "no quantity in 'measure' uses %s", turns ? "turns" : "a time");
-}
-
 static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until)
 {
     static const iso_sweep_setting settings[] = {
@@ -181,7 +219,20 @@ static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until)
     f->plan.turns = value[0];
     f->plan.time = value[1];
     if (isnan(value[0]) == isnan(value[1])) return ISO_FAIL_AT(f, until, "'until' has one of 'turns' and 'time'");
-    return check_until(f, until);
+    const bool turns = !isnan(value[0]);
+    bool used = false;
+    for (int i = 0; i < f->plan.requests;
+         i++) { /* what goes on to a time only has no turns, and the other way round */
+        const iso_study *study = iso_sweep_study(f->plan.request[i].name);
+        const bool by_turns = iso_study_option_find(study, "turns", 5),
+                   by_time = iso_study_option_find(study, "t-end", 5);
+        used = used || (turns ? by_turns : by_time);
+        if (by_turns != by_time && by_turns != turns)
+            return ISO_FAIL_AT(f, until, "'%s' needs 'until: {%s: ...}'", f->plan.request[i].name,
+                               turns ? "time" : "turns");
+    }
+    if (used) return ISO_OK;
+    return ISO_FAIL_AT(f, until, "no quantity in 'measure' uses %s", turns ? "turns" : "a time");
 }
 
 /* Refuses numbers that vary but are not used: `until` replaces the scene's end, and a quantity's own option replaces
@@ -217,7 +268,7 @@ static ISO_NAMES(kind_of_vectors, int, "avx512", "avx2", "plain")
     double value[2];
     if (root->type != YAML_MAPPING_NODE)
         return iso_yaml_expected(&f->yaml, root, "sweep", "a mapping with scene, vary and measure");
-    ISO_TRY(iso_sweep_check_keys(&f->yaml, root, "sweep", sizeof names / sizeof *names, names));
+    ISO_TRY(check_keys(&f->yaml, root, "sweep", sizeof names / sizeof *names, names));
     for (int i = 0; i < 5; i++)
         if (!iso_yaml_find(&f->yaml, root, names[i], NULL, &node[i]) && i < 3)
             return ISO_FAIL_AT(f, root, "missing '%s' in the sweep", names[i]);
@@ -226,7 +277,7 @@ static ISO_NAMES(kind_of_vectors, int, "avx512", "avx2", "plain")
     ISO_TRY(read_measure(f, node[2]));
     if (node[3]) ISO_TRY(read_until(f, node[3]));
     ISO_TRY(check_used(f, node[1]));
-    ISO_TRY(iso_sweep_read_settings(&f->yaml, root, settings, value));
+    ISO_TRY(read_settings(&f->yaml, root, settings, value));
     f->plan.chunk = (size_t)value[0];
     if (!isnan(value[1])) strcpy(f->plan.vectors, kind_of_vectors((int)value[1]));
     /* The reason of a point that fails is part of the result, whose bytes do not depend on the folder or on the path

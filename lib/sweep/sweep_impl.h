@@ -217,8 +217,7 @@ iso_status iso_sweep_job_begin(iso_context *ctx, const iso_sweep_plan *plan, con
                                iso_sweep_job *job);
 void iso_sweep_job_end(iso_sweep_job *job);
 
-/* Adds all columns of a job; those of these columns that it has, as in iso_sweep_quantity.columns. */
-void iso_sweep_add_columns(iso_sweep_job *job);
+/* Adds those of these columns that a job has, as in iso_sweep_quantity.columns. */
 void iso_sweep_add(iso_sweep_job *job, const char *columns);
 
 /* Calls `visit` for each column that a table of a sweep can have, besides those of what varies. There are no values.

@@ -25,20 +25,17 @@ static double tidy(double x, double most)
     return iso_number_read(digits, strlen(digits), &number) && fabs(number - x) < most ? number : x;
 }
 
-/* from (to/from)^part. Its rounding error is that of the power, which the logarithm of the ratio enlarges. */
-static double in_ratio(const iso_sweep_axis *a, double part)
-{
-    const double ratio = a->to / a->from, x = a->from * pow(ratio, part);
-    return tidy(x, 1e-15 * fabs(x) * (1 + fabs(log(ratio))));
-}
-
-/* Both ends are exact. */
+/* Both ends are exact. Of from (to/from)^part the rounding error is that of the power, which the logarithm of the ratio
+ * enlarges. */
 double iso_sweep_in_range(const iso_sweep_axis *a, size_t j)
 {
     const double n = (double)a->count - 1, i = (double)j;
     if (n <= 0 || j == 0) return a->from;
     if (i == n) return a->to;
-    if (a->logarithmic) return in_ratio(a, i / n);
+    if (a->logarithmic) {
+        const double ratio = a->to / a->from, x = a->from * pow(ratio, i / n);
+        return tidy(x, 1e-15 * fabs(x) * (1 + fabs(log(ratio))));
+    }
     return tidy((a->from * (n - i) + a->to * i) / n, 1e-15 * fmax(fabs(a->from), fabs(a->to)));
 }
 
@@ -70,17 +67,6 @@ static void in_triangle(const iso_sweep_axis *axis, size_t j, double J[3])
     J[2] = (double)(sum - a - b) / (double)sum;
 }
 
-static void value_of(const iso_sweep_file *f, const iso_sweep_axis *a, size_t j, size_t sample, double value[])
-{
-    switch (a->values) {
-    case ISO_FROM_LIST: memcpy(value, a->list + j * (size_t)a->width, (size_t)a->width * sizeof *value); break;
-    case ISO_FROM_RANGE: *value = iso_sweep_in_range(a, j); break;
-    case ISO_FROM_DRAWING: *value = drawn(f, a, sample); break;
-    case ISO_FROM_TRIANGLE: in_triangle(a, j, value); break;
-    case ISO_FROM_SPREAD: value[0] = value[1] = NAN; break; /* needs k and J: see on_section */
-    }
-}
-
 /* Which value of each axis point i has; those that are drawn have sample *sample. */
 static void take_apart(const iso_sweep_file *f, size_t i, size_t index[], size_t *sample)
 {
@@ -102,7 +88,15 @@ static iso_draft draft_of(iso_context *ctx, const iso_sweep_file *f, size_t i, d
     for (int n = 0; n < f->axes; n++) {
         const iso_sweep_axis *a = &f->axis[n];
         double *value = numbers + a->column, *at = (double *)(void *)((char *)&d + a->offset);
-        value_of(f, a, index[n], sample, value);
+        switch (a->values) {
+        case ISO_FROM_LIST:
+            memcpy(value, a->list + index[n] * (size_t)a->width, (size_t)a->width * sizeof *value);
+            break;
+        case ISO_FROM_RANGE: *value = iso_sweep_in_range(a, index[n]); break;
+        case ISO_FROM_DRAWING: *value = drawn(f, a, sample); break;
+        case ISO_FROM_TRIANGLE: in_triangle(a, index[n], value); break;
+        case ISO_FROM_SPREAD: value[0] = value[1] = NAN; break; /* needs k and J: see on_section */
+        }
         if (a->target == ISO_TO_NUMBER) memcpy(at, value, (size_t)a->width * sizeof *value);
         if (a->target == ISO_TO_RATIO) at[a->part] = *value * at[a->of];
     }

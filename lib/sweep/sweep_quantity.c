@@ -167,6 +167,40 @@ static char *options_text(const iso_sweep_plan *plan, const iso_sweep_request *r
     return iso_memory_close(to, &memory);
 }
 
+/* --- columns ------------------------------------------------------------------------------------------------------ */
+
+/* The next of columns with blanks between: its name, and the number of the study that it is. NULL: no more. */
+static const char *next_column(const char *columns, char name[ISO_COLUMN_SIZE], char number[ISO_COLUMN_SIZE])
+{
+    int used = 0;
+    if (sscanf(columns, "%63[^= ]%n", name, &used) != 1) return NULL;
+    columns += used;
+    strcpy(number, name);
+    if (*columns == '=' && sscanf(++columns, "%63[^ ]%n", number, &used) == 1) columns += used;
+    return columns + strspn(columns, " ");
+}
+
+void iso_sweep_add(iso_sweep_job *job, const char *columns)
+{
+    iso_sweep_column c;
+    char name[ISO_COLUMN_SIZE], number[ISO_COLUMN_SIZE];
+    while ((columns = next_column(columns, name, number)) && job->count < ISO_SWEEP_NUMBERS) {
+        snprintf(c.group, sizeof c.group, "%s", job->quantity.name);
+        snprintf(c.name, sizeof c.name, "%s", name);
+        bool there = job->quantity.has && !job->quantity.has(job, name);
+        for (int i = 0; i < job->count; i++) there = there || strcmp(job->column[i].name, c.name) == 0;
+        if (there) continue;
+        strcpy(job->number[job->count], number);
+        job->column[job->count++] = c;
+    }
+}
+
+static void add_column(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    (void)field, (void)value;
+    iso_sweep_add(data, name);
+}
+
 /* --- jobs -------------------------------------------------------------------------------------------------------- */
 
 static bool stop_at_once(void *unused)
@@ -175,16 +209,8 @@ static bool stop_at_once(void *unused)
     return false;
 }
 
-/* Whether every scene of the sweep will be refused for what it has: an effect, or columns. */
-static bool is_about_all(const iso_scene *base, const char *about)
-{
-    bool is = strcmp(about, "effects") == 0 || strcmp(about, "columns") == 0;
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        is = is || (base->effects.on[e] && strcmp(about, iso_effect_list[e]->name) == 0);
-    return is;
-}
-
-/* The study is asked for the base, and stopped as soon as it has refused nothing. */
+/* The study is asked for the base, and stopped as soon as it has refused nothing. What it refuses for an effect or for
+ * columns it would refuse in every scene of the sweep. */
 static iso_status refuse(iso_context *ctx, const iso_sweep_job *job)
 {
     iso_context *own = iso_context_create();
@@ -193,7 +219,11 @@ static iso_status refuse(iso_context *ctx, const iso_sweep_job *job)
     if (!own) return iso_context_no_memory(ctx, "a sweep");
     iso_context_set_monitor(own, stop_at_once, NULL);
     iso_status status = job->quantity.study->run(own, &subject, job->options, &result);
-    if ((status == ISO_BAD_INPUT || status == ISO_NOT_MAPPED) && is_about_all(job->base, iso_context_about(own)))
+    const char *about = iso_context_about(own);
+    bool all = strcmp(about, "effects") == 0 || strcmp(about, "columns") == 0;
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        all = all || (job->base->effects.on[e] && strcmp(about, iso_effect_list[e]->name) == 0);
+    if ((status == ISO_BAD_INPUT || status == ISO_NOT_MAPPED) && all)
         iso_context_fail(ctx, status, "", "%s", iso_context_message(own));
     else
         status = ISO_OK;
@@ -221,8 +251,14 @@ iso_status iso_sweep_job_begin(iso_context *ctx, const iso_sweep_plan *plan, con
     if (status == ISO_OK && job->base) status = refuse(ctx, job);
     if (status != ISO_OK && status != ISO_NO_MEMORY)
         iso_context_fail(ctx, status, q->name, "%s: %s", q->name, iso_context_message(ctx));
-    if (status == ISO_OK) iso_sweep_add_columns(job);
-    return status;
+    if (status != ISO_OK) return status;
+    if (q->add)
+        q->add(job);
+    else if (q->columns)
+        iso_sweep_add(job, q->columns);
+    else
+        iso_numbers_visit(q->study->fields, NULL, add_column, job);
+    return ISO_OK;
 }
 
 void iso_sweep_job_end(iso_sweep_job *job)
@@ -262,7 +298,7 @@ static iso_status take(iso_context *ctx, const iso_sweep_job *job, const iso_stu
     if (r->found && r->fields == q->study->fields)
         iso_numbers_visit(r->fields, r->found, fill, &f);
     else if (length == 0)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "with these options it has no numbers of one scene");
+        return ISO_FAIL_ARGUMENT(ctx, "", "with these options it has no numbers of one scene");
     for (int n = 0; length > 0 && n < job->count; n++) {
         const int column = iso_record_find(r->table[0], job->number[n]);
         if (column >= 0) f.number[n] = iso_record_const_row(r->table[0], length - 1)[column];
@@ -309,4 +345,58 @@ iso_status iso_sweep_measure(iso_context *ctx, const iso_sweep_job *job, iso_swe
         ISO_TRY(iso_sweep_note(ctx, job, b, i, status));
     }
     return ISO_OK;
+}
+
+/* --- what the columns are ----------------------------------------------------------------------------------------- */
+
+typedef struct described {
+    iso_sweep_quantity quantity;
+    const char *name, *number; /* of the column that is sought; NULL: all are */
+    iso_column_visitor *visit;
+    void *data;
+} described;
+
+/* "angles2_error" is as "angles1_error". */
+static bool is_like(const char *a, const char *b)
+{
+    for (; *a && *b; a++, b++)
+        if (*a != *b && !(*a >= '0' && *a <= '9' && *b >= '0' && *b <= '9')) return false;
+    return *a == *b;
+}
+
+static void describe(void *data, const char *name, const iso_field *field, const iso_value *value)
+{
+    described *d = data;
+    char full[ISO_COLUMN_SIZE];
+    if (d->number && !is_like(name, d->number)) return;
+    snprintf(full, sizeof full, "%s_%s", d->quantity.name, d->name ? d->name : name);
+    if (d->number) d->number = "";
+    d->visit(d->data, full, field, value);
+}
+
+void iso_sweep_columns_visit(iso_column_visitor *visit, void *data)
+{
+    static const iso_field of_row[] = {
+        {.name = "point", .unit = "", .doc = "number of the point, from 0 on"},
+        {.name = "status", .unit = "", .doc = "0, or why the point failed: a number of iso_status"},
+        {.name = "reason", .unit = "", .doc = "the same in words"},
+        ISO_FIELD_END,
+    };
+    described d = {.visit = visit, .data = data};
+    char name[ISO_COLUMN_SIZE], number[ISO_COLUMN_SIZE];
+    iso_columns_visit(of_row, NULL, visit, data);
+    for (int i = 0; iso_sweep_quantity_at(i, &d.quantity); i++) {
+        const iso_sweep_quantity *q = &d.quantity;
+        d.name = d.number = NULL;
+        if (!q->columns) iso_numbers_visit(q->study->fields, NULL, describe, &d);
+        for (const char *c = q->columns; c && (c = next_column(c, name, number));) {
+            d.name = name, d.number = number;
+            iso_numbers_visit(q->study->fields, NULL, describe, &d);
+        }
+        for (int c = 0; q->add && c < iso_columns_count(); c++) {
+            iso_field field = {.name = iso_column_name(c)};
+            field.doc = iso_column_doc(c, &field.unit);
+            describe(&d, field.name, &field, NULL);
+        }
+    }
 }

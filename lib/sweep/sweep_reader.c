@@ -1,8 +1,10 @@
-/* sweep_reader.c - reads results of sweeps (sweep_writer.c says what stands in them), and finds out damaged ones. */
+/* sweep_reader.c - reads results of sweeps (sweep_writer.c says what stands in them), finds out damaged ones, and makes
+ * one result from the parts of a sweep. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "io/output_impl.h"
@@ -16,18 +18,6 @@ static iso_status damaged(iso_context *ctx, const char *path, const char *why)
 }
 
 /* --- the head --------------------------------------------------------------------------------------------------- */
-
-/* "1 of 3"; in HDF5 of older ones "1 3" */
-static bool read_part(const iso_record *r, iso_sweep_shard *shard)
-{
-    const char *text = iso_record_get(r, "part");
-    *shard = (iso_sweep_shard){0, 1};
-    if (strcmp(iso_record_kind(r), ISO_SWEEP_KIND) == 0) return !text;
-    return text && strcmp(iso_record_kind(r), ISO_SWEEP_PART_KIND) == 0 &&
-           (sscanf(text, "%zu of %zu", &shard->index, &shard->count) == 2 ||
-            sscanf(text, "%zu %zu", &shard->index, &shard->count) == 2) &&
-           shard->index-- > 0 && shard->count > 1;
-}
 
 /* The columns are those of the line "names", in older files "columns": "vary/k chaos/verdict". */
 static bool read_columns(const iso_record *r, iso_sweep_head *h)
@@ -55,11 +45,20 @@ static bool read_head(iso_sweep_reader *r)
     iso_sweep_head *h = &r->head;
     const char *hash = iso_record_get(lines, "hash"), *vectors = iso_record_get(lines, "vectors"),
                *text = iso_record_get(lines, ISO_TABLE_TEXT), *points = iso_record_get(lines, "points"),
-               *chunk = iso_record_get(lines, "chunk");
+               *chunk = iso_record_get(lines, "chunk"), *part = iso_record_get(lines, "part");
     h->version = iso_record_get(lines, "isoroll");
     h->text = text ? text : "";
     h->scene = iso_record_get(lines, "scene");
-    return read_part(lines, &r->shard) && hash && strlen(hash) == 32 &&
+    r->shard = (iso_sweep_shard){0, 1};
+    const bool whole = strcmp(iso_record_kind(lines), ISO_SWEEP_KIND) == 0;
+    const bool named = whole
+                           ? !part
+                           : part && strcmp(iso_record_kind(lines), ISO_SWEEP_PART_KIND) == 0 &&
+                                 (sscanf(part, "%zu of %zu", &r->shard.index, &r->shard.count) == 2 ||
+                                  sscanf(part, "%zu %zu", &r->shard.index, &r->shard.count) == 2) && /* older HDF5 */
+                                 r->shard.index-- > 0 &&
+                                 r->shard.count > 1;
+    return named && hash && strlen(hash) == 32 &&
            sscanf(hash, "%16" SCNx64 "%16" SCNx64, &h->hash[0], &h->hash[1]) == 2 && vectors &&
            snprintf(h->vectors, sizeof h->vectors, "%s", vectors) < ISO_NAME_SIZE && points &&
            sscanf(points, "%zu", &h->count) == 1 && chunk && sscanf(chunk, "%zu", &h->chunk) == 1 &&
@@ -164,4 +163,93 @@ iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *r, iso_swee
     r->next += rows->count;
     r->sum = iso_sweep_sum(r->sum, rows);
     return r->unended || r->next < r->points ? ISO_OK : check_sum(ctx, r);
+}
+
+/* --- copies ------------------------------------------------------------------------------------------------------ */
+
+iso_status iso_sweep_copy(iso_context *ctx, iso_sweep_reader *const part[], size_t count, iso_sweep_shard shard,
+                          const char *path, iso_record **table, iso_sweep_failures *failures)
+{
+    const iso_sweep_head *head = &part[0]->head;
+    iso_sweep_writer writer = {.sum = 0};
+    iso_sweep_rows rows;
+    ISO_TRY(iso_sweep_rows_create(ctx, head->columns, head->chunk, &rows));
+    iso_status status = path || table ? iso_sweep_writer_open(ctx, path, head, shard, false, &writer) : ISO_OK;
+    for (size_t c = shard.index; c < iso_sweep_chunks(head) && status == ISO_OK; c += shard.count) {
+        status = iso_sweep_reader_rows(ctx, part[c % count], &rows);
+        if (status == ISO_OK && writer.table) status = iso_sweep_writer_rows(ctx, &writer, &rows);
+        if (status == ISO_OK && failures) iso_sweep_failures_add(failures, &rows);
+    }
+    if (status == ISO_OK && table) *table = writer.table, writer.table = NULL;
+    const iso_status closed = iso_sweep_writer_close(ctx, &writer, path && status == ISO_OK);
+    iso_sweep_rows_free(&rows);
+    return status == ISO_OK ? closed : status;
+}
+
+iso_status iso_sweep_read_table(iso_context *ctx, const char *path, iso_record **table)
+{
+    iso_sweep_reader *r;
+    *table = NULL;
+    ISO_TRY(iso_sweep_reader_open(ctx, path, &r));
+    const iso_status status = iso_sweep_copy(ctx, &r, 1, r->shard, NULL, table, NULL);
+    iso_sweep_reader_close(r);
+    return status;
+}
+
+/* --- merging ---------------------------------------------------------------------------------------------------- */
+
+typedef struct merger {
+    size_t count, given;     /* parts of the sweep; files */
+    iso_sweep_reader **part; /* by its index in the sweep */
+    const iso_sweep_reader *first;
+} merger;
+
+/* The first part says how many there are. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+static iso_status check_part(iso_context *ctx, merger *m, const iso_sweep_reader *r)
+{
+    const iso_sweep_head *a = &m->first->head, *b = &r->head;
+    const iso_sweep_shard shard = r->shard;
+    if (memcmp(a->hash, b->hash, sizeof a->hash) != 0 || a->count != b->count || a->chunk != b->chunk ||
+        a->columns != b->columns)
+        return ISO_FAIL_FILE(ctx, "'%s' is a part of another sweep than '%s'", r->path, m->first->path);
+    if (shard.count == 1) return ISO_FAIL_FILE(ctx, "'%s' is a whole sweep, not a part", r->path);
+    if (shard.count < m->given)
+        return ISO_FAIL_FILE(ctx, "'%s' is part %zu of %zu, but %zu files are given", r->path, shard.index + 1,
+                             shard.count, m->given);
+    if (!m->part) m->part = calloc(m->count = shard.count, sizeof *m->part);
+    if (!m->part) return iso_context_no_memory(ctx, "the parts");
+    if (shard.count != m->count)
+        return ISO_FAIL_FILE(ctx, "'%s' is part %zu of %zu, others are parts of %zu", r->path, shard.index + 1,
+                             shard.count, m->count);
+    if (!m->part[shard.index]) return ISO_OK;
+    return ISO_FAIL_FILE(ctx, "part %zu of %zu is there twice: '%s' and '%s'", shard.index + 1, shard.count,
+                         m->part[shard.index]->path, r->path);
+}
+
+iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,
+                           iso_sweep_failures *failures)
+{
+    struct stat s;
+    merger m = {.given = count};
+    iso_status status = ISO_OK;
+    *failures = (iso_sweep_failures){.count = 0};
+    if (strcmp(path, "-") != 0 && stat(path, &s) == 0 && S_ISREG(s.st_mode))
+        return ISO_FAIL_FILE(ctx, "'%s' is there: it is not overwritten", path);
+    for (size_t i = 0; i < count && status == ISO_OK; i++) {
+        iso_sweep_reader *r;
+        status = iso_sweep_reader_open(ctx, parts[i], &r);
+        if (!m.part) m.first = r;
+        if (status == ISO_OK) status = check_part(ctx, &m, r);
+        if (status == ISO_OK)
+            m.part[r->shard.index] = r;
+        else
+            iso_sweep_reader_close(r);
+    }
+    for (size_t i = 0; i < m.count && status == ISO_OK; i++)
+        if (!m.part[i]) status = ISO_FAIL_FILE(ctx, "part %zu of %zu is missing", i + 1, m.count);
+    if (status == ISO_OK)
+        status = iso_sweep_copy(ctx, m.part, m.count, (iso_sweep_shard){0, 1}, path, NULL, failures);
+    for (size_t i = 0; i < m.count; i++) iso_sweep_reader_close(m.part[i]);
+    free(m.part);
+    return status;
 }

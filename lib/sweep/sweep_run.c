@@ -133,15 +133,9 @@ static const iso_field state_fields[] = {
     ISO_FIELD_END,
 };
 
-const iso_study iso_state_study = {"state",
-                                   "the state at the end (the time of `until`, or the turn)",
-                                   state_options,
-                                   sizeof(run_request),
-                                   begin,
-                                   .prepare = prepare,
-                                   .run = state,
-                                   .of = ISO_STUDY_OF_SCENE,
-                                   .fields = state_fields};
+const iso_study iso_state_study = {
+    ISO_STUDY_AS("state", run_request, state_options, "the state at the end (the time of `until`, or the turn)"),
+    .prepare = prepare, .run = state, .of = ISO_STUDY_OF_SCENE, .fields = state_fields};
 
 /* --- a whole run -------------------------------------------------------------------------------------------------- */
 
@@ -183,14 +177,9 @@ static const iso_option error_options[] = {
     ISO_OPTION_END,
 };
 
-const iso_study iso_error_study = {"error",
-                                   "the largest errors over the rows of `run`, at a tolerance",
-                                   error_options,
-                                   sizeof(run_request),
-                                   begin,
-                                   .run = error,
-                                   .of = ISO_STUDY_OF_SCENE,
-                                   .fields = error_fields};
+const iso_study iso_error_study = {
+    ISO_STUDY_AS("error", run_request, error_options, "the largest errors over the rows of `run`, at a tolerance"),
+    .run = error, .of = ISO_STUDY_OF_SCENE, .fields = error_fields};
 
 /* A run goes on one side of the start. */
 static bool is_lost(const void *run)
@@ -221,11 +210,6 @@ static iso_status contact(iso_context *ctx, const iso_study_subject *subject, co
 
 static const iso_option contact_options[] = {ROW_END_OF_RUN, ISO_OPTION_END};
 
-const iso_study iso_contact_study = {"contact",
-                                     "whether contact is lost before the end, and when first",
-                                     contact_options,
-                                     sizeof(run_request),
-                                     begin,
-                                     .run = contact,
-                                     .of = ISO_STUDY_OF_SCENE,
-                                     .fields = contact_fields};
+const iso_study iso_contact_study = {
+    ISO_STUDY_AS("contact", run_request, contact_options, "whether contact is lost before the end, and when first"),
+    .run = contact, .of = ISO_STUDY_OF_SCENE, .fields = contact_fields};

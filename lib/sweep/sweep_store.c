@@ -44,24 +44,6 @@ static iso_status look_at_result(iso_context *ctx, iso_sweep_store *s, bool resu
     return ISO_OK;
 }
 
-/* A journal of version 0.2 has the chunks that were finished, in a form that is not read any more. */
-static iso_status look_for_journal(iso_context *ctx, const char *path)
-{
-    static const char mark[] = "isoroll sweep journal\n";
-    char *name, begin[sizeof mark] = "";
-    if (asprintf(&name, "%s.journal", path) < 0) return iso_context_no_memory(ctx, "a sweep");
-    FILE *file = fopen(name, "re");
-    const bool is = file && fread(begin, 1, sizeof mark - 1, file) == sizeof mark - 1 && strcmp(begin, mark) == 0;
-    if (file) fclose(file);
-    const iso_status status =
-        is ? REFUSE(name,
-                    "is the journal of an older version of isoroll, which cannot be gone on with: remove it to begin "
-                    "again, or give another name")
-           : ISO_OK;
-    free(name);
-    return status;
-}
-
 /* What a part that was left has, as far as its lines are whole. */
 typedef struct remains {
     size_t lines, length; /* lines, at most `lines`, and their bytes       */
@@ -134,8 +116,20 @@ static iso_status take_rows(iso_context *ctx, iso_sweep_store *s, bool resume)
 
 static iso_status open_named(iso_context *ctx, iso_sweep_store *s, bool resume)
 {
+    /* A journal of version 0.2 has the chunks that were finished, in a form that is not read any more. */
+    static const char mark[] = "isoroll sweep journal\n";
+    char *name, begin[sizeof mark] = "";
     struct stat file;
-    ISO_TRY(look_for_journal(ctx, s->path));
+    if (asprintf(&name, "%s.journal", s->path) < 0) return iso_context_no_memory(ctx, "a sweep");
+    FILE *old = fopen(name, "re");
+    const bool is = old && fread(begin, 1, sizeof mark - 1, old) == sizeof mark - 1 && strcmp(begin, mark) == 0;
+    if (old) fclose(old);
+    const iso_status status =
+        is ? REFUSE(name, "is the journal of an older version of isoroll, which cannot be gone on with: remove it to "
+                          "begin again, or give another name")
+           : ISO_OK;
+    free(name);
+    ISO_TRY(status);
     ISO_TRY(iso_sweep_writer_open(ctx, s->rows, s->head, s->shard, true, &s->writer));
     s->part = iso_file_part(s->rows);
     if (!s->part || stat(s->part, &file) != 0) return iso_file_trouble(ctx, "write", s->rows);
@@ -197,22 +191,6 @@ void iso_sweep_store_close(iso_sweep_store *s)
 
 /* --- adding and finishing --------------------------------------------------------------------------------------- */
 
-/* Keeps a copy of a chunk until its turn comes. */
-static iso_status keep_early(iso_context *ctx, iso_sweep_store *s, const iso_sweep_rows *rows)
-{
-    iso_sweep_rows copy, *more = realloc(s->early, (s->waiting + 1) * sizeof *more);
-    if (!more) return iso_context_no_memory(ctx, "chunks of a sweep");
-    s->early = more;
-    ISO_TRY(iso_sweep_rows_create(ctx, rows->columns, rows->most, &copy));
-    memcpy(copy.number, rows->number, iso_sweep_rows_bytes(rows));
-    copy.first = rows->first;
-    copy.count = rows->count;
-    size_t i = s->waiting++;
-    for (; i > 0 && more[i - 1].first > rows->first; i--) more[i] = more[i - 1];
-    more[i] = copy;
-    return ISO_OK;
-}
-
 /* Writes the chunks whose turn it is, or all. Each one reaches the file: a program that is killed loses those that are
  * computed, and those that wait. */
 static iso_status write_early(iso_context *ctx, iso_sweep_store *s, bool all)
@@ -230,9 +208,19 @@ static iso_status write_early(iso_context *ctx, iso_sweep_store *s, bool all)
     return status;
 }
 
+/* Keeps a copy of the chunk until its turn comes. */
 iso_status iso_sweep_store_add(iso_context *ctx, iso_sweep_store *s, const iso_sweep_rows *rows)
 {
-    ISO_TRY(keep_early(ctx, s, rows));
+    iso_sweep_rows copy, *more = realloc(s->early, (s->waiting + 1) * sizeof *more);
+    if (!more) return iso_context_no_memory(ctx, "chunks of a sweep");
+    s->early = more;
+    ISO_TRY(iso_sweep_rows_create(ctx, rows->columns, rows->most, &copy));
+    memcpy(copy.number, rows->number, iso_sweep_rows_bytes(rows));
+    copy.first = rows->first;
+    copy.count = rows->count;
+    size_t i = s->waiting++;
+    for (; i > 0 && more[i - 1].first > rows->first; i--) more[i] = more[i - 1];
+    more[i] = copy;
     return write_early(ctx, s, false);
 }
 

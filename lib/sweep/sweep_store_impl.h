@@ -96,7 +96,7 @@ iso_status iso_sweep_writer_close(iso_context *ctx, iso_sweep_writer *writer, bo
  * ISO_NO_MEMORY. */
 iso_status iso_sweep_read_table(iso_context *ctx, const char *path, iso_record **table);
 
-/* Puts the parts of one sweep together (sweep_merge.c). *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a
+/* Puts the parts of one sweep together (sweep_reader.c). *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a
  * part is missing, is there twice, was changed or damaged, or belongs to another sweep; `path` is there. */
 iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,
                            iso_sweep_failures *failures);

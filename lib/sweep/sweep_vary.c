@@ -40,23 +40,10 @@ static bool find_number(const iso_draft_number list[], int count, iso_sweep_axis
     return false;
 }
 
-/* A place on the section, or the level. */
-static bool find_place(iso_sweep_axis *a)
-{
-    static const char *const names[] = {"l", "x", "start", "level"};
-    for (int i = 0; i < 4; i++) {
-        if (strcmp(a->name, names[i]) != 0) continue;
-        a->target = i == 3 ? ISO_TO_LEVEL : ISO_TO_CHART;
-        a->chart = i;
-        a->width = i == 2 ? 2 : 1;
-        return true;
-    }
-    return false;
-}
-
 static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a)
 {
-    static const char *const others[] = {"l", "x", "start", "level", "J1", "J2", "J3", "J2/J1", "J3/J1"};
+    static const char *const others[] = {/* first places on the section, and the level */
+                                         "l", "x", "start", "level", "J1", "J2", "J3", "J2/J1", "J3/J1"};
     iso_draft_number list[ISO_SWEEP_NAMES];
     const char *names[ISO_SWEEP_NAMES + 9];
     size_t named = 0;
@@ -64,7 +51,14 @@ static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_swe
     if (key->type != YAML_SCALAR_NODE || key->data.scalar.length >= ISO_NAME_SIZE)
         return ISO_FAIL_AT(f, key, "a key should be the name of a number of the scene");
     snprintf(a->name, sizeof a->name, "%s", (const char *)key->data.scalar.value);
-    if (find_place(a) || find_number(list, count, a)) return ISO_OK;
+    for (int i = 0; i < 4; i++) {
+        if (strcmp(a->name, others[i]) != 0) continue;
+        a->target = i == 3 ? ISO_TO_LEVEL : ISO_TO_CHART;
+        a->chart = i;
+        a->width = i == 2 ? 2 : 1;
+        return ISO_OK;
+    }
+    if (find_number(list, count, a)) return ISO_OK;
     for (int i = 0; i < count; i++) names[named++] = list[i].name;
     const bool moments = strstr(a->name, "J") != NULL;
     for (size_t i = 0; i < (moments ? 9u : 4u); i++) names[named++] = others[i];
@@ -79,17 +73,6 @@ static iso_status make_list(iso_sweep_file *f, iso_sweep_axis *a, size_t count)
     a->count = count;
     a->list = calloc(count + 1, (size_t)a->width * sizeof *a->list);
     return a->list ? ISO_OK : iso_context_no_memory(f->yaml.ctx, "'%s'", a->name);
-}
-
-/* No value between the ends may overflow on its way. */
-static iso_status check_range(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)
-{
-    const double ratio = a->to / a->from, most = fmax(fabs(a->from), fabs(a->to)) * fmax((double)a->count, 2);
-    if (a->logarithmic && !(copysign(1, a->from) * a->to > 0 && a->from != 0))
-        return ISO_FAIL_AT(f, node, "a logarithmic range from %s to %s: both ends must be above 0, or both below",
-                           ISO_SHORT(a->from), ISO_SHORT(a->to));
-    if (a->logarithmic ? isfinite(ratio) && ratio > 0 : isfinite(most)) return ISO_OK;
-    return ISO_FAIL_AT(f, node, "a range from %s to %s is too wide", ISO_SHORT(a->from), ISO_SHORT(a->to));
 }
 
 static iso_status check_tolerance(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a, double x)
@@ -117,7 +100,12 @@ static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_swe
     a->logarithmic = value[3] > 0;
     ISO_TRY(check_tolerance(f, node, a, a->from));
     ISO_TRY(check_tolerance(f, node, a, a->to));
-    return check_range(f, node, a);
+    const double ratio = a->to / a->from, most = fmax(fabs(a->from), fabs(a->to)) * fmax((double)a->count, 2);
+    if (a->logarithmic && !(copysign(1, a->from) * a->to > 0 && a->from != 0))
+        return ISO_FAIL_AT(f, node, "a logarithmic range from %s to %s: both ends must be above 0, or both below",
+                           ISO_SHORT(a->from), ISO_SHORT(a->to));
+    if (a->logarithmic ? isfinite(ratio) && ratio > 0 : isfinite(most)) return ISO_OK; /* no value overflows */
+    return ISO_FAIL_AT(f, node, "a range from %s to %s is too wide", ISO_SHORT(a->from), ISO_SHORT(a->to));
 }
 
 /* Values, and ranges of values with a count. list NULL: only counts them. */
@@ -142,16 +130,6 @@ static iso_status read_items(iso_sweep_file *f, const yaml_node_t *node, iso_swe
         *count += range.count;
     }
     return ISO_OK;
-}
-
-static iso_status read_list(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
-{
-    size_t count;
-    if (node->data.sequence.items.start == node->data.sequence.items.top)
-        return iso_yaml_expected(&f->yaml, node, a->name, "a list of at least one value");
-    ISO_TRY(read_items(f, node, a, &count));
-    ISO_TRY(make_list(f, a, count));
-    return read_items(f, node, a, &count);
 }
 
 /* All a + b + c = sum from 1 on; ordered: a < b < c. */
@@ -193,7 +171,14 @@ static iso_status read_spread(iso_sweep_file *f, const yaml_node_t *node, iso_sw
 
 static iso_status read_values(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
 {
-    if (node->type == YAML_SEQUENCE_NODE) return read_list(f, node, a);
+    size_t count;
+    if (node->type == YAML_SEQUENCE_NODE) {
+        if (node->data.sequence.items.start == node->data.sequence.items.top)
+            return iso_yaml_expected(&f->yaml, node, a->name, "a list of at least one value");
+        ISO_TRY(read_items(f, node, a, &count));
+        ISO_TRY(make_list(f, a, count));
+        return read_items(f, node, a, &count);
+    }
     if (node->type == YAML_MAPPING_NODE) {
         if (a->target == ISO_TO_CHART && a->chart == 2) return read_spread(f, node, a);
         return a->width == 3 ? read_triangle(f, node, a) : read_range(f, node, a);
@@ -244,32 +229,6 @@ static iso_status check_level(iso_sweep_file *f, const yaml_node_t *key, iso_swe
     return ISO_OK;
 }
 
-/* l and x are both there, once. */
-static iso_status check_start(iso_sweep_file *f, const yaml_node_t *vary)
-{
-    int have[2] = {0, 0};
-    for (int i = 0; i < f->axes; i++) {
-        const iso_sweep_axis *a = &f->axis[i];
-        for (int c = 0; c < 2; c++) have[c] += a->target == ISO_TO_CHART && (a->chart == c || a->chart == 2);
-    }
-    if (!f->on_section || (have[0] == 1 && have[1] == 1)) return ISO_OK;
-    return iso_yaml_fail(
-        &f->yaml, vary->start_mark,
-        "a start on the section is 'l' and 'x' (one of them may be a single number), or 'start' alone");
-}
-
-/* J2 and J2/J1 both set J2; and J1 behind J2/J1 changes the ratio in the row. */
-static iso_status check_moments(iso_sweep_file *f, const yaml_node_t *key, const iso_sweep_axis *a)
-{
-    for (const iso_sweep_axis *b = f->axis; b < a; b++) {
-        if (a->moments & b->moments)
-            return ISO_FAIL_AT(f, key, "'%s' and '%s' set the same moment", b->name, a->name);
-        if (b->target == ISO_TO_RATIO && a->moments & 1 << b->of)
-            return ISO_FAIL_AT(f, key, "'%s' changes '%s': write it first", a->name, b->name);
-    }
-    return ISO_OK;
-}
-
 /* The names of the columns of an axis. */
 static iso_status name_columns(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a)
 {
@@ -298,7 +257,12 @@ static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
     ISO_TRY(check_chart(f, value, a));
     ISO_TRY(check_level(f, key, a));
     ISO_TRY(name_columns(f, key, a));
-    ISO_TRY(check_moments(f, key, a));
+    for (const iso_sweep_axis *b = f->axis; b < a; b++) { /* J1 behind J2/J1 would change the ratio in the row */
+        if (a->moments & b->moments)
+            return ISO_FAIL_AT(f, key, "'%s' and '%s' set the same moment", b->name, a->name);
+        if (b->target == ISO_TO_RATIO && a->moments & 1 << b->of)
+            return ISO_FAIL_AT(f, key, "'%s' changes '%s': write it first", a->name, b->name);
+    }
     if (a->values != ISO_FROM_DRAWING) return ISO_OK;
     if (f->drawn == ISO_SWEEP_DRAWN) return ISO_FAIL_AT(f, key, "more than %d numbers are drawn", ISO_SWEEP_DRAWN);
     a->drawn = f->drawn++;
@@ -351,7 +315,14 @@ iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const
     if (!f->column) return iso_context_no_memory(f->yaml.ctx, "a sweep");
     const yaml_node_pair_t *end = vary->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = vary->data.mapping.pairs.start; p < end; p++) ISO_TRY(read_axis(f, p));
-    ISO_TRY(check_start(f, vary));
+    int have[2] = {0, 0}; /* l and x are both there, once */
+    for (int i = 0; i < f->axes; i++)
+        for (int c = 0; c < 2; c++)
+            have[c] += f->axis[i].target == ISO_TO_CHART && (f->axis[i].chart == c || f->axis[i].chart == 2);
+    if (f->on_section && (have[0] != 1 || have[1] != 1))
+        return ISO_FAIL_AT(f, vary,
+                           "a start on the section is 'l' and 'x' (one of them may be a single number), or "
+                           "'start' alone");
     ISO_TRY(read_samples(f, vary, samples));
     size_t *points = &f->plan.family.count;
     *points = f->drawn > 0 ? f->samples : 1;

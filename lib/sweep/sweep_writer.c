@@ -8,10 +8,9 @@
  *
  * The bytes of the file depend on nothing but what is in it.
  */
-#define _GNU_SOURCE /* vasprintf */
+#define _GNU_SOURCE /* asprintf */
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,50 +60,40 @@ void iso_sweep_failures_add(iso_sweep_failures *f, const iso_sweep_rows *rows)
 
 /* --- the header --------------------------------------------------------------------------------------------------- */
 
-__attribute__((format(printf, 4, 5))) static iso_status set(iso_context *ctx, iso_record *r, const char *key,
-                                                            const char *format, ...)
-{
-    char *text;
-    va_list args;
-    va_start(args, format);
-    const bool memory = vasprintf(&text, format, args) >= 0;
-    va_end(args);
-    if (!memory) return iso_context_no_memory(ctx, "a sweep");
-    const iso_status status = iso_record_set(ctx, r, key, text);
-    free(text);
-    return status;
-}
-
 /* A text of whole lines: the last one gets an end if its file has none. */
 static iso_status set_text(iso_context *ctx, iso_record *r, const char *key, const char *text)
 {
-    const size_t length = text ? strlen(text) : 0;
-    return length > 0 ? set(ctx, r, key, text[length - 1] == '\n' ? "%s" : "%s\n", text) : ISO_OK;
-}
-
-/* "vary/k chaos/verdict": all columns. */
-static iso_status set_names(iso_context *ctx, iso_record *r, const iso_sweep_head *head)
-{
-    iso_memory memory;
-    FILE *to = iso_memory_open(&memory);
-    for (int i = 0; to && i < head->columns; i++)
-        fprintf(to, "%s%s/%s", i > 0 ? " " : "", head->column[i].group, head->column[i].name);
-    char *text = iso_memory_close(to, &memory);
-    const iso_status status = text ? iso_record_set(ctx, r, "names", text) : iso_context_no_memory(ctx, "a sweep");
-    free(text);
+    char *whole;
+    if (!text || !*text) return ISO_OK;
+    if (asprintf(&whole, "%s%s", text, text[strlen(text) - 1] == '\n' ? "" : "\n") < 0)
+        return iso_context_no_memory(ctx, "a sweep");
+    const iso_status status = iso_record_set(ctx, r, key, whole);
+    free(whole);
     return status;
 }
 
 static iso_status set_lines(iso_context *ctx, iso_record *r, const iso_sweep_head *head, iso_sweep_shard shard)
 {
+    char text[64];
+    iso_memory memory;
     iso_record_set_kind(r, shard.count == 1 ? ISO_SWEEP_KIND : ISO_SWEEP_PART_KIND);
     ISO_TRY(iso_record_set(ctx, r, "isoroll", head->version));
-    ISO_TRY(set(ctx, r, "hash", "%016" PRIx64 "%016" PRIx64, head->hash[0], head->hash[1]));
-    ISO_TRY(set(ctx, r, "points", "%zu", head->count));
-    ISO_TRY(set(ctx, r, "chunk", "%zu", head->chunk));
+    snprintf(text, sizeof text, "%016" PRIx64 "%016" PRIx64, head->hash[0], head->hash[1]);
+    ISO_TRY(iso_record_set(ctx, r, "hash", text));
+    snprintf(text, sizeof text, "%zu", head->count);
+    ISO_TRY(iso_record_set(ctx, r, "points", text));
+    snprintf(text, sizeof text, "%zu", head->chunk);
+    ISO_TRY(iso_record_set(ctx, r, "chunk", text));
     ISO_TRY(iso_record_set(ctx, r, "vectors", head->vectors));
-    if (shard.count > 1) ISO_TRY(set(ctx, r, "part", "%zu of %zu", shard.index + 1, shard.count));
-    ISO_TRY(set_names(ctx, r, head));
+    snprintf(text, sizeof text, "%zu of %zu", shard.index + 1, shard.count);
+    if (shard.count > 1) ISO_TRY(iso_record_set(ctx, r, "part", text));
+    FILE *to = iso_memory_open(&memory);
+    for (int i = 0; to && i < head->columns; i++) /* "vary/k chaos/verdict": all columns */
+        fprintf(to, "%s%s/%s", i > 0 ? " " : "", head->column[i].group, head->column[i].name);
+    char *names = iso_memory_close(to, &memory);
+    const iso_status status = names ? iso_record_set(ctx, r, "names", names) : iso_context_no_memory(ctx, "a sweep");
+    free(names);
+    ISO_TRY(status);
     ISO_TRY(set_text(ctx, r, ISO_TABLE_TEXT, head->text));
     return set_text(ctx, r, "scene", head->scene);
 }

@@ -26,18 +26,6 @@ static double potential(const iso_analogue_problem *p, const double gamma[3])
     return -p->eps * pow(dot_diag(gamma, p->J, gamma), -1 / p->k);
 }
 
-/* Finds the least and the largest V on the sphere. V is monotonic in one quadratic form, so both are on axes. */
-static void find_range(iso_analogue *a)
-{
-    a->lowest = INFINITY;
-    a->highest = -INFINITY;
-    for (int i = 0; i < 3; i++) {
-        const double axis[3] = {i == 0, i == 1, i == 2}, V = potential(&a->problem, axis) + 0.0; /* no -0 */
-        if (V < a->lowest) a->lowest = V, a->bottom = i;
-        a->highest = fmax(a->highest, V);
-    }
-}
-
 static iso_status check_numbers(iso_context *ctx, const iso_analogue_problem *p)
 {
     iso_params params;
@@ -135,7 +123,7 @@ static iso_status make_constant(iso_context *ctx, iso_analogue *a)
     const double size = p->neumann ? 2 * over : cbrt(p->J[0]) * cbrt(p->J[1]) * cbrt(p->J[2]);
     const bool stated = !p->neumann && p->J[0] == p->J[1] && p->J[1] == p->J[2];
     const double one = stated ? p->J[0] : size, J[3] = {one, one, one};
-    a->way = ISO_ANALOGUE_CONSTANT;
+    a->choice = ISO_ANALOGUE_CONSTANT;
     a->shift = p->energy;
     return make_ball(ctx, k, J, over * pow(one, 1 / k), 0, &a->reduced);
 }
@@ -158,18 +146,18 @@ static iso_status make_reduced(iso_context *ctx, iso_analogue *a)
                  "no free ball: for k = %.10g a free ball has E = 0; only for k = -1 can J take up another energy",
                  p->k);
     } else if (p->neumann || p->energy != 0) {
-        a->way = ISO_ANALOGUE_FREE;
+        a->choice = ISO_ANALOGUE_FREE;
         if (min3(free) > 0 && min3(free) * MOST_SPREAD >= max3(free))
             return make_shifted(ctx, a, c, 2 * p->energy, 0);
         snprintf(a->not_free, sizeof a->not_free,
                  "no free ball: 2 E - c = %.6g %.6g %.6g must be positive (and within a factor %s of each other)",
                  free[0], free[1], free[2], ISO_SHORT(MOST_SPREAD));
     }
-    a->way = ISO_ANALOGUE_STATED;
+    a->choice = ISO_ANALOGUE_STATED;
     if (!p->neumann && !(shell && triangle_room(p->J) <= 0))
         return make_ball(ctx, p->k, p->J, p->eps, p->energy, &a->reduced);
     const double d = max3(c) + 2 * (max3(c) - min3(c));
-    a->way = ISO_ANALOGUE_SHIFTED;
+    a->choice = ISO_ANALOGUE_SHIFTED;
     return make_shifted(ctx, a, c, d, p->energy - d / 2);
 }
 
@@ -259,7 +247,13 @@ iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *probl
     memset(a, 0, sizeof *a);
     a->problem = *problem;
     ISO_TRY(check_numbers(ctx, problem));
-    find_range(a);
+    a->lowest = INFINITY;
+    a->highest = -INFINITY;
+    for (int i = 0; i < 3; i++) { /* V is monotonic in one quadratic form: its extremes are on axes */
+        const double axis[3] = {i == 0, i == 1, i == 2}, V = potential(problem, axis) + 0.0; /* no -0 */
+        if (V < a->lowest) a->lowest = V, a->bottom = i;
+        a->highest = fmax(a->highest, V);
+    }
     ISO_TRY(check_energy(ctx, a));
     ISO_TRY(make_reduced(ctx, a));
     if (a->reduced.level == 0) a->not_free[0] = '\0';
@@ -269,41 +263,11 @@ iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *probl
 
 /* --- starts and scenes ------------------------------------------------------------------------------------------ */
 
-/* Asks an orbit for the coupling and the level of the start: the scene may not state them. */
-iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
-                                   double point[ISO_STATE])
-{
-    ISO_DEFAULT_ARITHMETIC;
-    iso_orbit *orbit;
-    iso_sample sample;
-    iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    iso_effects effects = iso_scene_acting(scene);
-    if (scene->start.model != ISO_POINT)
-        return ISO_FAIL_INPUT(ctx, "", "this scene is a ball already: an analogue is of a 'point'");
-    const iso_effect *more = iso_effects_beyond_level(&effects); /* changes the potential, or there is no twin */
-    if (more)
-        return iso_context_fail(ctx, ISO_NOT_MAPPED, more->name,
-                                "'%s' is more than V = -eps (gamma, J gamma)^(-1/k): take it out", more->name);
-    o.effects = &effects;
-    ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit));
-    iso_status status = iso_orbit_at(orbit, 0, &sample);
-    if (status == ISO_OK) {
-        effects = iso_orbit_effects(orbit);
-        *problem = (iso_analogue_problem){.k = scene->params.k, .eps = iso_orbit_coupling(orbit)};
-        copy(scene->params.J, problem->J, 3);
-        const double c = iso_effects_level(&effects);
-        problem->energy = iso_effects_have_level(&effects) ? iso_coupling(&scene->params, c) : 0;
-        copy(sample.point, point, ISO_STATE);
-    }
-    iso_orbit_free(orbit);
-    return status;
-}
-
 /* Begins in a direction off all planes of symmetry, and goes halfway to the bottom again and again, until half of the
  * energy above the bottom is motion. */
 double iso_analogue_start(const iso_analogue *a, double point[ISO_STATE])
 {
-    static const double off[3] = {0.48, 0.6, 0.64}, way[3] = {0.6, -0.48, 0.64};
+    static const double off[3] = {0.48, 0.6, 0.64}, along[3] = {0.6, -0.48, 0.64};
     const iso_analogue_problem *p = &a->problem;
     const double over = p->energy - a->lowest, most = fmax(p->energy, a->highest) - a->lowest;
     double *M = point, *gamma = point + 3;
@@ -314,7 +278,7 @@ double iso_analogue_start(const iso_analogue *a, double point[ISO_STATE])
     }
     if (over <= rounding(a)) /* at rest at the bottom */
         for (int i = 0; i < 3; i++) gamma[i] = i == a->bottom;
-    copy(way, M, 3);
+    copy(along, M, 3);
     remove_along(M, gamma);
     make_unit(M);
     remove_along(M, gamma); /* the first time left a rounding error */

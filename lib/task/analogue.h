@@ -33,12 +33,12 @@ typedef struct iso_analogue_problem {
 } iso_analogue_problem;
 
 /* How J was found. */
-typedef enum iso_analogue_way {
+typedef enum iso_analogue_choice {
     ISO_ANALOGUE_STATED,   /* as the problem states it                            */
     ISO_ANALOGUE_FREE,     /* k = -1: the shift that makes the level 0            */
     ISO_ANALOGUE_SHIFTED,  /* k = -1: J = d - c                                   */
     ISO_ANALOGUE_CONSTANT, /* equal moments                                       */
-} iso_analogue_way;
+} iso_analogue_choice;
 
 /* A ball whose twin is the point: its gamma and M, in its clock s. */
 typedef struct iso_analogue_ball {
@@ -52,7 +52,7 @@ typedef struct iso_analogue {
     iso_analogue_problem problem;
     double lowest, highest; /* of V on the sphere ... */
     int bottom;             /* ... the axis of the least V */
-    iso_analogue_way way;
+    iso_analogue_choice choice;
     double shift; /* V of the problem less that of the ball's twin, a constant                         */
     iso_analogue_ball reduced;
     char not_free[192]; /* why there is no free ball; "" when the ball is free                     */
@@ -68,11 +68,6 @@ typedef struct iso_analogue {
  * about "energy": no motion has it, or in a constant potential only rest; ISO_NUMERICAL: what leaves the doubles. */
 iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *problem, double mass, double radius,
                              iso_analogue *analogue);
-
-/* The problem of a point's start: its eps, its energy, and the start on that energy to the last digit, in point[].
- * Errors: ISO_NOT_MAPPED about an effect that acts on the point beyond its potential; as iso_orbit_create. */
-iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
-                                   double point[ISO_STATE]);
 
 /* A start for a problem that has none: off the axes where the energy allows it. Gives a time s of about ten turns. */
 double iso_analogue_start(const iso_analogue *analogue, double point[ISO_STATE]);

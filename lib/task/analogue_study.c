@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/number_impl.h"
+#include "base/vec3_impl.h"
 #include "io/scene_print_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/options_impl.h"
@@ -25,16 +26,16 @@ static void print_problem(FILE *to, const iso_analogue *a)
     fprintf(to, "#   energy M^2/2 + V = %.10g; V is between %.10g and %.10g\n", p->energy, a->lowest, a->highest);
     const bool free = a->reduced.level == 0, shifted = p->neumann || p->eps < 0;
     fprintf(to, "# ball: %s", free ? "free" : "in the potential U = -c (n, J^-1 n)^(-1/k)");
-    if (a->way == ISO_ANALOGUE_STATED) fprintf(to, free ? ", since the energy is 0\n" : "; c = E k^2/det J\n");
-    if (a->way == ISO_ANALOGUE_FREE)
+    if (a->choice == ISO_ANALOGUE_STATED) fprintf(to, free ? ", since the energy is 0\n" : "; c = E k^2/det J\n");
+    if (a->choice == ISO_ANALOGUE_FREE)
         fprintf(to, ": on the sphere V = E - eps (gamma, J gamma) with the ball's J = %s\n",
                 shifted ? "2 E - c, eps = 1/2" : "J + E/eps");
-    if (a->way == ISO_ANALOGUE_SHIFTED)
+    if (a->choice == ISO_ANALOGUE_SHIFTED)
         fprintf(to,
                 ": V = d/2 - eps (gamma, J gamma), d = %.10g, and c = (E - d/2) k^2/det J;\n"
                 "#   any d with a positive J would do; this one makes max J/min J = 3/2\n",
                 2 * a->shift);
-    if (a->way == ISO_ANALOGUE_CONSTANT)
+    if (a->choice == ISO_ANALOGUE_CONSTANT)
         fprintf(to, ": V is constant: the point turns uniformly, and so does any ball of equal moments\n");
     if (*a->not_free) fprintf(to, "#   %s\n", a->not_free);
 }
@@ -52,7 +53,7 @@ static void print_ball(FILE *to, const iso_analogue *a)
     fprintf(to, "\n");
     if (!a->has_body) {
         fprintf(to, "# no body:\n#   %s\n", a->no_body);
-        if (r->params.k == -1 && a->way != ISO_ANALOGUE_SHIFTED && !(a->room > 0))
+        if (r->params.k == -1 && a->choice != ISO_ANALOGUE_SHIFTED && !(a->room > 0))
             fprintf(to, "#   --level gives one that has a body, in the potential of a level\n");
         return;
     }
@@ -82,18 +83,48 @@ static iso_status prepare(iso_context *ctx, void *options)
     const iso_analogue_problem *p = &((const iso_analogue_request *)options)->problem;
     const bool neumann = !isnan(p->c[0]), k = !isnan(p->k), J = !isnan(p->J[0]), eps = !isnan(p->eps);
     if (neumann && (k || J || eps))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "neumann",
-                                "analogue: --neumann has k = -1 and needs no --k, --J or --eps: leave them out");
+        return ISO_FAIL_ARGUMENT(ctx, "neumann",
+                                 "analogue: --neumann has k = -1 and needs no --k, --J or --eps: leave them out");
     if (!neumann && (k || J || eps) && !(k && J && eps)) {
         const char *missing = !k ? "k" : !J ? "J" : "eps";
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, missing,
-                                "analogue: --%s is missing: a problem is --k, --J and --eps, or --neumann", missing);
+        return ISO_FAIL_ARGUMENT(ctx, missing,
+                                 "analogue: --%s is missing: a problem is --k, --J and --eps, or --neumann", missing);
     }
     if (!neumann && !k && !isnan(p->energy))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "energy",
-                                "analogue: --energy needs --neumann or --k, --J and --eps; a scene's start has its "
-                                "own");
+        return ISO_FAIL_ARGUMENT(ctx, "energy",
+                                 "analogue: --energy needs --neumann or --k, --J and --eps; a scene's start has its "
+                                 "own");
     return ISO_OK;
+}
+
+/* The problem of a point's start: its eps, its energy, and the start on that energy to the last digit. Asks an orbit for
+ * the coupling and the level: the scene may not state them. */
+static iso_status problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
+                             double point[ISO_STATE])
+{
+    iso_orbit *orbit;
+    iso_sample sample;
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    iso_effects effects = iso_scene_acting(scene);
+    if (scene->start.model != ISO_POINT)
+        return ISO_FAIL_INPUT(ctx, "", "this scene is a ball already: an analogue is of a 'point'");
+    const iso_effect *more = iso_effects_beyond_level(&effects); /* changes the potential, or there is no twin */
+    if (more)
+        return iso_context_fail(ctx, ISO_NOT_MAPPED, more->name,
+                                "'%s' is more than V = -eps (gamma, J gamma)^(-1/k): take it out", more->name);
+    o.effects = &effects;
+    ISO_TRY(iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit));
+    iso_status status = iso_orbit_at(orbit, 0, &sample);
+    if (status == ISO_OK) {
+        effects = iso_orbit_effects(orbit);
+        *problem = (iso_analogue_problem){.k = scene->params.k, .eps = iso_orbit_coupling(orbit)};
+        copy(scene->params.J, problem->J, 3);
+        const double c = iso_effects_level(&effects);
+        problem->energy = iso_effects_have_level(&effects) ? iso_coupling(&scene->params, c) : 0;
+        copy(sample.point, point, ISO_STATE);
+    }
+    iso_orbit_free(orbit);
+    return status;
 }
 
 /* The problem of the scene, or, NULL, of the options; and the start and end, in s, of its point. */
@@ -103,12 +134,12 @@ static iso_status state(iso_context *ctx, const iso_scene *scene, const iso_anal
     const bool stated = iso_analogue_is_stated(r);
     iso_analogue_problem p = r->problem;
     if (stated == (scene != NULL))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scene",
-                                stated ? "analogue: a scene and a problem in options: leave one of them out"
-                                       : "analogue needs a scene, or a problem in options");
+        return ISO_FAIL_ARGUMENT(ctx, "scene",
+                                 stated ? "analogue: a scene and a problem in options: leave one of them out"
+                                        : "analogue needs a scene, or a problem in options");
     p.neumann = !isnan(p.c[0]);
     if (isnan(p.energy)) p.energy = 0;
-    if (scene) ISO_TRY(iso_analogue_problem_of(ctx, scene, &p, point));
+    if (scene) ISO_TRY(problem_of(ctx, scene, &p, point));
     p.level = r->problem.level;
     ISO_TRY(iso_analogue_find(ctx, &p, r->mass, r->radius, a));
     *end = scene ? scene->end : 2 * iso_analogue_start(a, point); /* about twenty turns */
@@ -144,12 +175,6 @@ static const iso_field fields[] = {
     ISO_FIELD_END,
 };
 
-static void free_found(void *found)
-{
-    free((char *)((iso_analogue_found *)found)->text);
-    free(found);
-}
-
 static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result)
 {
@@ -157,7 +182,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     double point[ISO_STATE], end = 0;
     iso_memory memory;
     iso_scene scene;
-    iso_analogue_found *f = iso_study_keep(result, calloc(1, sizeof *f), fields, free_found);
+    iso_analogue_found *f = iso_study_keep(result, calloc(1, sizeof *f), fields, free);
     if (!f) return iso_context_no_memory(ctx, "a ball");
     ISO_TRY(state(ctx, of, options, &f->analogue, point, &end));
     f->ball = f->analogue.has_body ? f->analogue.body : f->analogue.reduced;
@@ -166,7 +191,7 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     if (of && of->step > 0 && end != 0) scene.step = fabs(scene.end) / (fabs(end) / of->step);
     FILE *to = iso_memory_open(&memory);
     if (to) report(to, &f->analogue, of, &scene);
-    f->text = iso_memory_close(to, &memory);
+    f->text = result->text = iso_memory_close(to, &memory);
     if (!f->text) return iso_context_no_memory(ctx, "words");
     return iso_study_table(ctx, "analogue", &scene, fields, f, NULL, &result->table[0]);
 }
@@ -188,19 +213,6 @@ const iso_option iso_analogue_option[] = {
     ISO_OPTION_END,
 };
 
-static void print_found(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
-{
-    (void)scene, (void)options;
-    fputs(((const iso_analogue_found *)result->found)->text, to);
-}
-
-const iso_study iso_analogue_study = {"analogue",
-                                      "find a ball that realises a problem of a point on a sphere",
-                                      iso_analogue_option,
-                                      sizeof(iso_analogue_request),
-                                      begin,
-                                      .prepare = prepare,
-                                      .run = run,
-                                      .of = ISO_STUDY_USES_SCENE,
-                                      .fields = fields,
-                                      .print = print_found};
+const iso_study iso_analogue_study = {ISO_STUDY_AS("analogue", iso_analogue_request, iso_analogue_option,
+                                                   "find a ball that realises a problem of a point on a sphere"),
+                                      .prepare = prepare, .run = run, .of = ISO_STUDY_USES_SCENE, .fields = fields};

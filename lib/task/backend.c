@@ -29,17 +29,12 @@ typedef struct choice {
     const char *why;
 } choice;
 
-/* n turns at rate |k omega|, gamma at |M|. */
-static double radians_to(const iso_scene *scene, double time)
-{
-    const double *y = scene->start.y, rate = hypot(hypot(y[0], y[1]), y[2]); /* y^2 may overflow */
-    return fabs(time) * rate * (scene->start.model == ISO_BALL ? fabs(scene->params.k) : 1);
-}
-
-/* closed: the closed solution may be taken */
+/* closed: the closed solution may be taken. n turns at rate |k omega|, gamma at |M|. */
 static choice choose(const iso_scene *scene, const iso_effects *effects, const iso_run_extent *q, bool closed)
 {
-    const double radians = radians_to(scene, q->farthest), rows = (double)q->rows, k = fabs(scene->params.k);
+    const double *y = scene->start.y, rate = hypot(hypot(y[0], y[1]), y[2]); /* y^2 may overflow */
+    const double rows = (double)q->rows, k = fabs(scene->params.k),
+                 radians = fabs(q->farthest) * rate * (scene->start.model == ISO_BALL ? k : 1);
     if (scene->backend != ISO_BACKEND_AUTO) return (choice){scene->backend, "asked for by name"};
     if (strcmp(scene->method, "auto") != 0)
         return (choice){ISO_BACKEND_AUTO, "a method is given: the model that it is for, or that of the start"};
@@ -57,20 +52,6 @@ static choice choose(const iso_scene *scene, const iso_effects *effects, const i
     return (choice){ISO_BACKEND_POINT, "the cheapest for at most 12 rows in a turn, and as exact"};
 }
 
-/* The closed solution may refuse a far time. */
-static iso_status try_orbit(iso_context *ctx, const iso_scene *scene, const iso_orbit_options *how,
-                            const iso_run_extent *q, iso_orbit **orbit)
-{
-    iso_sample sample;
-    iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, how, orbit);
-    if (status != ISO_OK || how->backend != ISO_BACKEND_EXACT) return status;
-    status = iso_orbit_at(*orbit, q->farthest, &sample);
-    if (status == ISO_OK) return status;
-    iso_orbit_free(*orbit);
-    *orbit = NULL;
-    return status;
-}
-
 iso_status iso_backend_open(iso_context *ctx, const iso_scene *scene, const iso_orbit_options *how,
                             const iso_run_extent *q, iso_orbit **orbit)
 {
@@ -81,7 +62,12 @@ iso_status iso_backend_open(iso_context *ctx, const iso_scene *scene, const iso_
     iso_status status = ISO_NUMERICAL;
     for (int i = first == ISO_BACKEND_EXACT ? 0 : 1; i < 3; i++) {
         o.backend = in_turn[i];
-        status = try_orbit(ctx, scene, &o, q, orbit);
+        status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
+        if (status == ISO_OK && o.backend == ISO_BACKEND_EXACT) { /* it may refuse a far time */
+            iso_sample sample;
+            status = iso_orbit_at(*orbit, q->farthest, &sample);
+            if (status != ISO_OK) iso_orbit_free(*orbit), *orbit = NULL;
+        }
         if (status == ISO_OK || status == ISO_NO_MEMORY || o.backend == ISO_BACKEND_AUTO) break;
     }
     return status;

@@ -35,19 +35,6 @@ static size_t shown_row(size_t i, size_t shown, size_t rows)
     return shown < 2 ? rows - 1 : i * (rows - 1) / (shown - 1);
 }
 
-/* The larger difference of a model's two vectors in a row. Run `point`: from the ball. Run `exact`: from the ball
- * or the point, whichever is larger. */
-static double row_difference(const iso_comparison *c, int run, iso_model_kind model, size_t row)
-{
-    const int first = model == ISO_BALL ? 1 : 3;
-    double most = 0;
-    for (int b = 0; b < ISO_INTEGRATED; b++) {
-        const double *d = iso_record_const_row(run == ISO_BY_EXACT ? c->from_exact[b] : c->difference, row);
-        most = fmax(most, fmax(d[first], d[first + 1]));
-    }
-    return most;
-}
-
 /* Prints one model's six numbers by every backend, each with its difference from the backends above it. */
 static void print_model(FILE *to, const iso_comparison *c, iso_model_kind model, size_t shown, size_t rows)
 {
@@ -65,8 +52,12 @@ static void print_model(FILE *to, const iso_comparison *c, iso_model_kind model,
             const double *x = iso_record_const_row(c->run[b].trajectory, row);
             fprintf(to, "%.6g\t%s", x[clock], backend_name(c, b));
             for (int j = 0; j < ISO_STATE; j++) fprintf(to, "\t%.9g", x[first + j] + 0.0);
-            if (b > 0) fprintf(to, "\t%.1e", row_difference(c, b, model, row));
-            fprintf(to, b > 0 ? "\n" : "\t\n");
+            double most = 0; /* the larger difference of the two vectors from ball or point, whichever is larger */
+            for (int from = 0; b > 0 && from < ISO_INTEGRATED; from++) {
+                const double *d = iso_record_const_row(b == ISO_BY_EXACT ? c->from_exact[from] : c->difference, row);
+                most = fmax(most, model == ISO_BALL ? fmax(d[1], d[2]) : fmax(d[3], d[4]));
+            }
+            fprintf(to, b > 0 ? "\t%.1e\n" : "\t\n", most);
         }
     }
     iso_table_end(to);
@@ -98,10 +89,7 @@ static void print_integrals(FILE *to, const iso_comparison *c)
         const iso_drift *d = &c->run[ISO_BALL].drift[i];
         fprintf(to, "%s\t%s\t%.9g", d->system->name, d->integral->name, d->start);
         for (int b = 0; b < c->runs; b++)
-            if (i < c->run[b].drifts)
-                fprintf(to, "\t%.1e", c->run[b].drift[i].worst);
-            else
-                fputs("\t-", to);
+            fprintf(to, i < c->run[b].drifts ? "\t%.1e" : "\t-", c->run[b].drift[i].worst);
         fprintf(to, "\t%s\n", d->integral->doc);
     }
     iso_table_end(to);
@@ -169,8 +157,8 @@ static double agree_until(const iso_comparison *c, double bound)
     return iso_record_const_row(c->difference, i)[0];
 }
 
-bool iso_comparison_words(const iso_scene *scene, const iso_comparison *c, double *most,
-                          char words[ISO_COMPARISON_WORDS])
+bool iso_comparison_text(const iso_scene *scene, const iso_comparison *c, double *most,
+                         char words[ISO_COMPARISON_SIZE])
 {
     enum { GROWTH = 30 }; /* errors that grow like the cube of the time are 8 times those of the first half */
     const size_t rows = iso_record_rows(c->difference), all = iso_scene_rows(scene);
@@ -182,18 +170,18 @@ bool iso_comparison_words(const iso_scene *scene, const iso_comparison *c, doubl
     *most = worst;
     if (rows < all) snprintf(part, sizeof part, " in the %zu of %zu rows that were compared", rows, all);
     if (worst <= same)
-        snprintf(words, ISO_COMPARISON_WORDS, "the same orbit%s: %s agree to %.1e", part, who, worst);
+        snprintf(words, ISO_COMPARISON_SIZE, "the same orbit%s: %s agree to %.1e", part, who, worst);
     else if (!isfinite(worst))
-        snprintf(words, ISO_COMPARISON_WORDS, "no result%s: a difference is not finite", part);
+        snprintf(words, ISO_COMPARISON_SIZE, "no result%s: a difference is not finite", part);
     else if (worst > bound && worst > GROWTH * half)
-        snprintf(words, ISO_COMPARISON_WORDS,
+        snprintf(words, ISO_COMPARISON_SIZE,
                  "the orbits part%s: %s agree to %.1e until %s = %s, then the difference grows to %.1e, as on a "
                  "chaotic orbit, where it multiplies with every turn; this says nothing against the isomorphism "
                  "(see 'isoroll chaos')",
                  part, who, bound, clock, ISO_ROUNDED(agree_until(c, bound), 6), worst);
     else
         snprintf(
-            words, ISO_COMPARISON_WORDS,
+            words, ISO_COMPARISON_SIZE,
             "not shown to be the same orbit%s: %s differ by %.1e; steps of tolerance %s may add up to %.1e; if a "
             "smaller --tol makes the difference smaller, it is the error of the method",
             part, who, worst, ISO_SHORT(scene->tolerance), bound);
@@ -206,7 +194,7 @@ void iso_compare_print(FILE *to, const iso_scene *scene, const void *options, co
     const size_t rows = iso_record_rows(c->difference),
                  wanted = (size_t)fmin(((const iso_compare_request *)options)->rows, 1e9);
     const size_t shown = wanted < rows ? wanted : rows;
-    char words[ISO_COMPARISON_WORDS];
+    char words[ISO_COMPARISON_SIZE];
     if (rows == 0) return;
     print_head(to, scene, c);
     print_model(to, c, ISO_BALL, shown, rows);
@@ -215,6 +203,6 @@ void iso_compare_print(FILE *to, const iso_scene *scene, const void *options, co
     print_integrals(to, c);
     print_differences(to, c, rows);
     double worst;
-    iso_comparison_words(scene, c, &worst, words);
+    iso_comparison_text(scene, c, &worst, words);
     fprintf(to, "\n%s\n", words);
 }

@@ -17,17 +17,6 @@
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
 
-/* An observer whose states are only columns is left out if no column shows them. */
-static void leave_out_unseen(iso_effects *effects, const int columns[], int count)
-{
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
-        const iso_effect *effect = iso_effect_list[e];
-        bool seen = !(effect->observes && effect->states && effect->columns);
-        for (int i = 0; i < count; i++) seen = seen || iso_column_effect(columns[i]) == e;
-        effects->on[e] = effects->on[e] && seen;
-    }
-}
-
 /* Options of the orbit that fills these columns (iso_scene_column_list) and computes nothing else. Writes *effects; the
  * options point to it. */
 static iso_orbit_options orbit_options(const iso_scene *scene, const int columns[], int count, iso_effects *effects)
@@ -42,7 +31,13 @@ static iso_orbit_options orbit_options(const iso_scene *scene, const int columns
         M = M || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_POINT + 3);
     }
     *effects = scene->effects;
-    leave_out_unseen(effects, columns, count);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS;
+         e++) { /* an observer with states is left out if no column shows them */
+        const iso_effect *effect = iso_effect_list[e];
+        bool seen = !(effect->observes && effect->states && effect->columns);
+        for (int i = 0; i < count; i++) seen = seen || iso_column_effect(columns[i]) == e;
+        effects->on[e] = effects->on[e] && seen;
+    }
     ball = ball || iso_effects_ball_only(effects); /* to see where contact is lost */
     o.effects = effects;
     o.shown = ball && point ? ISO_SHOW_BOTH
@@ -97,30 +92,26 @@ static void note(const runner *r, const char *text)
 
 /* --- the header ------------------------------------------------------------------------------------------------- */
 
-static iso_status describe(const runner *r, iso_record **header)
+static iso_status write_header(const runner *r)
 {
     const char *names[ISO_MAX_COLUMNS];
     const iso_scene *scene = r->scene;
     const iso_models as = scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
+    iso_record *h = NULL;
     for (int i = 0; i < r->count; i++) names[i] = iso_column_name(r->columns[i]);
-    ISO_TRY(iso_record_create(r->ctx, (size_t)r->count, names, header));
-    ISO_TRY(iso_record_describe(r->ctx, *header, iso_models_name((int)as), &scene->params, r->orbit));
-    ISO_TRY(iso_record_set(r->ctx, *header, "backend", iso_backend_name((int)iso_orbit_backend(r->orbit))));
-    ISO_TRY(iso_record_set(r->ctx, *header, "method", iso_orbit_method(r->orbit)->name));
-    if (!iso_orbit_exact(r->orbit))
-        ISO_TRY(iso_record_set_numbers(r->ctx, *header, "tolerance", 1, &scene->tolerance));
-    return iso_record_set(r->ctx, *header, "isoroll", ISO_VERSION);
-}
-
-static iso_status write_header(const runner *r)
-{
-    iso_record *header = NULL;
-    iso_status status = describe(r, &header);
-    if (status == ISO_OK && r->sink->header) status = r->sink->header(r->sink->data, 0, header);
+    iso_status status = iso_record_create(r->ctx, (size_t)r->count, names, &h);
+    if (status == ISO_OK) status = iso_record_describe(r->ctx, h, iso_models_name((int)as), &scene->params, r->orbit);
+    if (status == ISO_OK)
+        status = iso_record_set(r->ctx, h, "backend", iso_backend_name((int)iso_orbit_backend(r->orbit)));
+    if (status == ISO_OK) status = iso_record_set(r->ctx, h, "method", iso_orbit_method(r->orbit)->name);
+    if (status == ISO_OK && !iso_orbit_exact(r->orbit))
+        status = iso_record_set_numbers(r->ctx, h, "tolerance", 1, &scene->tolerance);
+    if (status == ISO_OK) status = iso_record_set(r->ctx, h, "isoroll", ISO_VERSION);
+    if (status == ISO_OK && r->sink->header) status = r->sink->header(r->sink->data, 0, h);
     if (status == ISO_OK && r->rows)
-        *r->rows = header;
+        *r->rows = h;
     else
-        iso_record_free(header);
+        iso_record_free(h);
     return status;
 }
 
@@ -138,21 +129,23 @@ static iso_status sort_times(runner *r)
     return ISO_OK;
 }
 
-static iso_status check_times(runner *r)
+/* The times, the columns and the method. */
+static iso_status check(runner *r)
 {
     const iso_run_options *o = &r->options;
-    if (!o->times) {
-        r->farthest = r->scene->end;
-        return iso_scene_check_times(r->ctx, r->scene);
-    }
-    if (o->count == 0) return ISO_FAIL_ARGUMENT(r->ctx, "times", "there are no times");
-    for (size_t i = 0; i < o->count; i++) {
+    r->farthest = o->times ? 0 : r->scene->end;
+    if (!o->times) ISO_TRY(iso_scene_check_times(r->ctx, r->scene));
+    if (o->times && o->count == 0) return ISO_FAIL_ARGUMENT(r->ctx, "times", "there are no times");
+    for (size_t i = 0; o->times && i < o->count; i++) {
         if (!isfinite(o->times[i]))
             return ISO_FAIL_ARGUMENT(r->ctx, "times", "time %zu must be finite, not %s", i + 1,
                                      ISO_SHORT(o->times[i]));
         if (fabs(o->times[i]) > fabs(r->farthest)) r->farthest = o->times[i];
     }
-    return ISO_OK;
+    ISO_TRY(iso_scene_check_columns(r->ctx, r->scene));
+    r->count = iso_scene_column_list(r->scene, r->columns);
+    r->result->asked = o->times ? o->count : iso_scene_rows(r->scene);
+    return iso_method_check(r->ctx, r->scene->method);
 }
 
 /* --- contact ---------------------------------------------------------------------------------------------------- */
@@ -235,15 +228,6 @@ static void end_errors(runner *r, iso_status status, const char *words)
     snprintf(r->result->error_words, sizeof r->result->error_words, "%s", words);
 }
 
-/* Before a row is given away its error is found; only a stop keeps it back. */
-static iso_status add_error(runner *r, const iso_sample *sample)
-{
-    const iso_status status = r->errors ? iso_error_finder_add(r->errors, sample) : ISO_OK;
-    if (status == ISO_STOPPED) return status;
-    if (status != ISO_OK) end_errors(r, status, iso_context_message(r->ctx));
-    return ISO_OK;
-}
-
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
 static iso_status write_row(runner *r, const double row[])
@@ -261,8 +245,10 @@ static iso_status work_on(runner *r, iso_asked_time asked)
     bool there = false;
     if (!iso_context_goes_on(r->ctx)) return iso_context_stopped(r->ctx);
     iso_status status = find_sample(r, asked.time, &sample, &there);
-    if (status == ISO_OK && there) status = add_error(r, &sample);
     if (status != ISO_OK || !there) return status;
+    if (r->errors) status = iso_error_finder_add(r->errors, &sample); /* before the row is given away */
+    if (status == ISO_STOPPED) return status;
+    if (status != ISO_OK) end_errors(r, status, iso_context_message(r->ctx));
     for (int c = 0; c < r->count; c++) row[c] = iso_sample_column(&sample, r->columns[c]);
     if (!r->order) return write_row(r, row);
     r->found[asked.row] = true;
@@ -291,15 +277,6 @@ static bool monitor(void *data)
     if (sink->progress && r->orbit && r->farthest != 0)
         sink->progress(sink->data, fmin(fabs(iso_orbit_reached(r->orbit) / r->farthest), 1));
     return iso_monitor_goes_on(&r->monitor);
-}
-
-static iso_status check(runner *r)
-{
-    ISO_TRY(check_times(r));
-    ISO_TRY(iso_scene_check_columns(r->ctx, r->scene));
-    r->count = iso_scene_column_list(r->scene, r->columns);
-    r->result->asked = r->options.times ? r->options.count : iso_scene_rows(r->scene);
-    return iso_method_check(r->ctx, r->scene->method);
 }
 
 static iso_status open_orbit(runner *r)

@@ -8,20 +8,10 @@
 
 ISO_STUDY_BEGIN(iso_run_request, (iso_run_request){.change = ISO_SCENE_AS_IT_IS})
 
-/* The largest errors, in lines of a trajectory that is kept. */
-static iso_status put_errors(iso_context *ctx, const iso_run_result *r, iso_record *table)
-{
-    static const char *const keys[] = {"errors.ball", "errors.point", "errors.t", "errors.tau", "errors.s"};
-    for (int i = 0; i < 5; i++) {
-        const double *worst = i < 2 ? &r->error.state[i].worst : &r->error.clock[i - 2].worst;
-        if (!isnan(*worst)) ISO_TRY(iso_record_set_numbers(ctx, table, keys[i], 1, worst));
-    }
-    return ISO_OK;
-}
-
 static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result)
 {
+    static const char *const keys[] = {"errors.ball", "errors.point", "errors.t", "errors.tau", "errors.s"};
     const iso_run_request *r = options;
     const iso_record *times = subject->record;
     iso_scene scene = *subject->scene;
@@ -38,8 +28,10 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     const iso_status status =
         iso_run(ctx, &scene, &how, &result->sink, result->sink.row ? NULL : &result->table[0], found);
     if (result->table[0]) iso_record_set_kind(result->table[0], "trajectory");
-    if (result->table[0] && r->verbose && found->error_status == ISO_OK)
-        ISO_TRY(put_errors(ctx, found, result->table[0]));
+    for (int i = 0; result->table[0] && r->verbose && found->error_status == ISO_OK && i < 5; i++) {
+        const double *worst = i < 2 ? &found->error.state[i].worst : &found->error.clock[i - 2].worst;
+        if (!isnan(*worst)) ISO_TRY(iso_record_set_numbers(ctx, result->table[0], keys[i], 1, worst));
+    }
     if (r->verbose && found->error_status != ISO_OK && !result->sink.row)
         iso_study_note(result, "error not known: %s", found->error_words);
     return status;
@@ -102,11 +94,6 @@ const iso_option iso_run_option[] = {
     ISO_OPTION_END,
 };
 
-const iso_study iso_run_study = {"run",
-                                 "compute a scene's orbit and write its trajectory",
-                                 iso_run_option,
-                                 sizeof(iso_run_request),
-                                 begin,
-                                 .run = run,
-                                 .of = ISO_STUDY_OF_SCENE | ISO_STUDY_USES_RECORD | ISO_STUDY_STREAMS,
-                                 .print = print};
+const iso_study iso_run_study = {
+    ISO_STUDY_AS("run", iso_run_request, iso_run_option, "compute a scene's orbit and write its trajectory"),
+    .run = run, .of = ISO_STUDY_OF_SCENE | ISO_STUDY_USES_RECORD | ISO_STUDY_STREAMS, .print = print};

@@ -52,12 +52,12 @@ typedef struct iso_compare_request {
 
 /* --- comparisons, as text (compare_print.c) --------------------------------------------------------------------- */
 
-enum { ISO_COMPARISON_WORDS = 512 };
+enum { ISO_COMPARISON_SIZE = 512 };
 
 /* The result of a comparison in one sentence, for people. True: it is the same orbit by all backends, since the largest
  * difference, *most, is within what the errors of the steps may add up to. False: the sentence says why not. */
-bool iso_comparison_words(const iso_scene *scene, const iso_comparison *c, double *most,
-                          char words[ISO_COMPARISON_WORDS]);
+bool iso_comparison_text(const iso_scene *scene, const iso_comparison *c, double *most,
+                         char words[ISO_COMPARISON_SIZE]);
 
 /* --- the study analogue (analogue_study.c) ---------------------------------------------------------------------- */
 
@@ -72,7 +72,7 @@ bool iso_analogue_is_stated(const iso_analogue_request *request);
 typedef struct iso_analogue_found {
     iso_analogue analogue;
     iso_analogue_ball ball;
-    const char *text; /* the scene of the ball, with a report in # lines; it is freed with the rest */
+    const char *text; /* the scene of the ball, with a report in # lines: the text of the result */
 } iso_analogue_found;
 
 /* What it tells people, and the lines of its table (compare_print.c). */

@@ -1,18 +1,14 @@
 /* bench_batch - how many orbits a second can be computed: one by one, and many side by side (iso_batch_run).
  *
- *     bench_batch [K] [REPETITIONS] [all|yardstick]
+ *     bench_batch [K] [REPETITIONS] [all|lanes]
  *
  * The orbits are 1000 balls with J = (1.4, 2.1, 3.0) and random starts of the energy h = 0.81, to t = 100. K is the
  * geometry number (default -1). All ways take turns, and the fastest of REPETITIONS runs (3) of each counts.
- * `yardstick`: only many side by side, on one thread, and the yardstick.
+ * `lanes`: only many side by side, on one thread.
  *
  * Rivals (rivals/): GSL's rk8pd, and Boost.odeint where it is found, each by the ball and by the point in the ball's
  * time, one orbit after the other. The law: their median error comes within 1e-8. Else the program fails and prints
  * no speed of theirs.
- *
- * The yardstick (rivals/yardstick_lanes.c) is what a plain program for this one problem reaches in the same vectors. It
- * has several orders; the law is the same. A last line for each kind of vectors has our speed over that of its best
- * order.
  *
  * How to read the output. There is a block for each rival, for taylor (one orbit after the other), for iso_batch_run
  * on one thread with each kind of vectors of this processor, and for iso_batch_run on all threads.
@@ -93,30 +89,19 @@ static void together(iso_context *ctx, double tolerance, int threads, const char
     bench_must(ctx, iso_batch_run(ctx, orbits, ORBITS, &o, &end, 1, samples, NULL));
 }
 
-/* All orbits have the same energy, so one problem is that of all. */
-static void by_yardstick(const yardstick *own, double tolerance, iso_sample samples[])
-{
-    static double y[ORBITS][ISO_STATE];
-    const rival_problem p = problem_of(0, true);
-    for (int i = 0; i < ORBITS; i++) iso_ball_to_point(&params, starts[i].y, y[i]);
-    own->solve(&p, tolerance, own->order, 100, ORBITS, y);
-    for (int i = 0; i < ORBITS; i++) iso_point_to_ball(&params, y[i], samples[i].ball);
-}
-
 static void errors(double sorted[ORBITS])
 {
     for (int i = 0; i < ORBITS; i++) sorted[i] = bench_error(found[i].ball, truth[i].ball);
     bench_sort(sorted, ORBITS);
 }
 
-/* A way to solve them all: by a rival or a yardstick (if there is one), by a method one by one (threads < 0), or in
- * vectors of the name. */
+/* A way to solve them all: by a rival (if there is one), by a method one by one (threads < 0), or in vectors of the
+ * name. */
 typedef struct way {
     const char *name, *method;
     iso_backend backend;
     int threads;
     const rival *rival;
-    const yardstick *yardstick;
 } way;
 
 static double time_of(iso_context *ctx, const way *w, double tolerance)
@@ -125,8 +110,6 @@ static double time_of(iso_context *ctx, const way *w, double tolerance)
     const double begin = now();
     if (w->rival)
         by_rival(w->rival, w->backend == ISO_BACKEND_POINT, tolerance, found);
-    else if (w->yardstick)
-        by_yardstick(w->yardstick, tolerance, found);
     else if (w->threads < 0)
         one_by_one(ctx, w->method, tolerance, w->backend, found);
     else
@@ -185,20 +168,6 @@ static void print(const way *w, const result of[TIGHTEST + 1], double fastest_ri
 
 enum { MOST = 32 };
 
-/* The yardstick in the vectors of this processor. */
-static int list_yardsticks(way ways[], int count)
-{
-    static char names[MOST][64];
-    for (const yardstick *y = yardsticks; y->vectors; y++)
-        for (int i = 0; iso_batch_vectors(i, NULL); i++) {
-            if (strcmp(iso_batch_vectors(i, NULL), y->vectors) != 0) continue;
-            snprintf(names[count], sizeof *names, "yardstick %s, order %d", y->vectors, y->order);
-            ways[count] = (way){.name = names[count], .method = y->vectors, .threads = 1, .yardstick = y};
-            count++;
-        }
-    return count;
-}
-
 /* Rivals and taylor one by one, vectors, all threads. */
 static int list_ways(way ways[MOST], bool only_lanes)
 {
@@ -206,38 +175,19 @@ static int list_ways(way ways[MOST], bool only_lanes)
     const int one = -1, all = 0;
     int count = 0;
     for (int i = 0; rivals[i].name && !only_lanes; i++)
-        for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT && !rivals[i].slow; b++) {
+        for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
             snprintf(names[count], sizeof *names, "%s, %s", rivals[i].name, b == ISO_BACKEND_BALL ? "ball" : "point");
             ways[count] = (way){.name = names[count], .backend = b, .threads = one, .rival = &rivals[i]};
             count++;
         }
     if (!only_lanes) {
-        ways[count++] = (way){"taylor, ball", "taylor", ISO_BACKEND_BALL, one, NULL, NULL};
-        ways[count++] = (way){"taylor, point", "taylor", ISO_BACKEND_POINT, one, NULL, NULL};
+        ways[count++] = (way){"taylor, ball", "taylor", ISO_BACKEND_BALL, one, NULL};
+        ways[count++] = (way){"taylor, point", "taylor", ISO_BACKEND_POINT, one, NULL};
     }
     for (int i = 0; iso_batch_vectors(i, NULL); i++)
-        ways[count++] =
-            (way){iso_batch_vectors(i, NULL), iso_batch_vectors(i, NULL), ISO_BACKEND_AUTO, 1, NULL, NULL};
-    if (!only_lanes) ways[count++] = (way){"widest, all threads", NULL, ISO_BACKEND_AUTO, all, NULL, NULL};
+        ways[count++] = (way){iso_batch_vectors(i, NULL), iso_batch_vectors(i, NULL), ISO_BACKEND_AUTO, 1, NULL};
+    if (!only_lanes) ways[count++] = (way){"widest, all threads", NULL, ISO_BACKEND_AUTO, all, NULL};
     return count;
-}
-
-/* Our speed in each kind of vectors over that of the yardstick's best order. */
-static void print_shares(const way ways[], int count, result results[][TIGHTEST + 1])
-{
-    for (int i = 0; i < count; i++) {
-        double best = 0;
-        int order = 0;
-        for (int j = 0; j < count; j++) {
-            const yardstick *y = ways[j].yardstick;
-            if (!y || ways[i].yardstick || !ways[i].method || strcmp(y->vectors, ways[i].method) != 0) continue;
-            const double rate = rate_at_1e9(results[j]);
-            if (rate > best) best = rate, order = y->order;
-        }
-        if (best > 0)
-            printf("%s: %.2f of the yardstick, %.0f orbits per second of order %d\n", ways[i].name,
-                   rate_at_1e9(results[i]) / best, best, order);
-    }
 }
 
 int main(int argc, char **argv)
@@ -247,8 +197,7 @@ int main(int argc, char **argv)
     iso_context *ctx = iso_context_create();
     const int repetitions = argc > 2 ? atoi(argv[2]) : 3;
     const char *which = argc > 3 ? argv[3] : "all";
-    int count = list_ways(ways, strcmp(which, "all") != 0);
-    if (strcmp(which, "yardstick") == 0) count = list_yardsticks(ways, count);
+    const int count = list_ways(ways, strcmp(which, "all") != 0);
     make_starts(ctx, argc > 1 ? atof(argv[1]) : -1);
     one_by_one(ctx, "taylor_extended", 1e-15, ISO_BACKEND_BALL, truth);
     for (int pass = 0; pass < repetitions; pass++)
@@ -256,13 +205,12 @@ int main(int argc, char **argv)
 
     double fastest = NAN;
     for (int i = 0; i < count; i++) {
-        if (ways[i].rival || ways[i].yardstick) check_rival(&ways[i], results[i]);
         if (!ways[i].rival) continue;
+        check_rival(&ways[i], results[i]);
         fastest = fmax(fastest, rate_at_1e9(results[i]));
     }
     printf("%-28s %5s%9s%9s%9s%10s\n", "way", "tol", "50 %", "95 %", "99 %", "orbits/s");
     for (int i = 0; i < count; i++) print(&ways[i], results[i], fastest);
-    print_shares(ways, count, results);
     iso_context_free(ctx);
     return 0;
 }

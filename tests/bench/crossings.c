@@ -1,7 +1,6 @@
 /* bench_crossings - how many crossings of the section a second can be computed, alone and with deviations.
  *
  *     bench_crossings [K [T]]        speed, J = (1, 2, 5); T: tolerance of ours, default 1e-12
- *     bench_crossings count N        N million crossings of random and of nearly flat orbits: none may be missed
  *
  * The orbits start evenly spread over the section. All runs have tolerance 1e-12, and ours T; one thread; seconds are
  * processor time. `ratio` is to the fastest rival; of the rivals to the first.
@@ -13,9 +12,6 @@
  *   numbers. Then iso_crossings with deviations.
  * - `off`: the largest relative error of the times of the first 5 crossings, against ours at 1e-15 by the same model.
  *   The law: a rival's `off` is below 1e-9, and its variations there are ours up to 1e-6.
- * - count: the library checks each return against Sturm's bounds. Here the times s of both models are compared as
- *   well: for k = 1 and -1 those of all crossings, for other k those of the first 6, before chaotic orbits part. If
- *   one model misses a crossing, their times differ by a turn.
  */
 #include "orbit/crossings.h"
 #include "bench.h"
@@ -35,8 +31,7 @@ static double start_at[ORBITS][2];                  /* l, x */
 static iso_crossing crossing[ORBITS * TURNS];       /* of the last run of ours */
 static iso_crossing right[2][SLOW_ORBITS][CHECKED]; /* by each model at 1e-15 */
 
-/* With `flat`, every other start is next to the boundary: 1 - |x| = 1e-12 ... 1e-3. */
-static void make_starts(double k, bool flat)
+static void make_starts(double k)
 {
     params = bench_params(ctx, k, (double[]){1, 2, 5});
     const int axis = iso_section_axis(iso_free_point(&params, 1));
@@ -45,7 +40,6 @@ static void make_starts(double k, bool flat)
     for (uint64_t i = 0; i < ORBITS; i++) {
         double l, x;
         iso_section_spread_point(&spread, i, &l, &x);
-        if (flat && i % 2 == 0) x = copysign(1 - pow(10, -3 - (double)(i % 10)), x);
         start_at[i][0] = l, start_at[i][1] = x;
         starts[i] = bench_section_start(&params, l, x);
         orbits[i] = (iso_batch_orbit){&params, &starts[i], NULL};
@@ -225,47 +219,11 @@ static double print_rivals(bool deviations)
     return fastest;
 }
 
-/* --- none may be missed ----------------------------------------------------------------------------------------- */
-
-static void count_crossings(double millions)
-{
-    static const double ks[] = {-2, -1, -0.5, 0.3, 0.5, 1, 3};
-    enum { EACH = 2000 };
-    static iso_crossing both[2][ORBITS * EACH];
-    static size_t done[ORBITS];
-    static iso_status status[ORBITS];
-    double count = 0, failed = 0, apart = 0;
-    for (int n = 0; count < 1e6 * millions; n++) {
-        make_starts(ks[n % 7], true);
-        for (int b = 0; b < 2; b++) {
-            iso_crossings *c;
-            iso_crossings_options o = iso_crossings_defaults();
-            o.backend = b == 0 ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
-            bench_must(ctx, iso_crossings_create(ctx, orbits, ORBITS, &o, &c));
-            if (iso_crossings_go(c, NULL, EACH, both[b], NULL, done, status) != ISO_OK)
-                printf("%s\n", iso_context_message(ctx)), failed++;
-            for (int i = 0; i < ORBITS; i++) count += (double)done[i];
-            iso_crossings_free(c);
-        }
-        for (int i = 0; i < ORBITS; i++)
-            for (int j = 0; j < (fabs(params.k) == 1 ? EACH : 6); j++) {
-                const double s[2] = {both[0][EACH * i + j].clock[2], both[1][EACH * i + j].clock[2]};
-                apart = fmax(apart, fabs(s[1] / s[0] - 1));
-            }
-    }
-    printf("%.0f crossings, %g runs that failed; the models' times differ by at most %.1e of them\n", count, failed,
-           apart);
-}
-
 int main(int argc, char *argv[])
 {
     ctx = iso_context_create();
-    if (argc > 2 && strcmp(argv[1], "count") == 0) {
-        count_crossings(atof(argv[2]));
-        return 0;
-    }
     if (argc > 2) our_tolerance = atof(argv[2]);
-    make_starts(argc > 1 ? atof(argv[1]) : -1, false);
+    make_starts(argc > 1 ? atof(argv[1]) : -1);
     printf("k = %g\n", params.k);
     for (int deviations = 0; deviations <= 1; deviations++) {
         printf("%-34s %8s  %8s  %8s\n", deviations ? "turns with two deviations" : "crossings", "a second", "ratio",

@@ -1,6 +1,6 @@
 /* bench_methods - time and error of every method on free balls, against those of other libraries.
  *
- *     bench_methods [--long] [METHOD...]
+ *     bench_methods [METHOD...]
  *
  * The ball has J = (1.4, 2.1, 3.0), n = (0.36, 0.48, 0.8), w = (0.9, -0.3, w3), and five values of k in turn.
  * - A ball, A point: the ball's state at t = 1000, by the equations of the ball, and by those of the point in t.
@@ -21,7 +21,6 @@
  *   "-": not reached in 300000 steps.
  *
  * A time is the median of passes over all methods in turn. Errors are against Taylor series in long double.
- * --long: instead, the ball's state at t = 1e6, k = -1, against the rivals that are not slow, at 1e-13.
  */
 #include "bench.h"
 #include "map/state.h"
@@ -251,59 +250,18 @@ static void bench(iso_context *ctx, double k, const iso_method *const methods[],
 
 /* --- long runs -------------------------------------------------------------------------------------------------- */
 
-static void print_long(const char *name, const problem *p, int digits, double error, double took)
-{
-    printf("%-22s %-8s 1e-%02d", name, p->name, digits);
-    print_number("%.1e", error);
-    print_number("%.0f", took);
-    putchar('\n');
-    fflush(stdout);
-}
-
-static void bench_long(iso_context *ctx, const iso_method *const methods[], int count)
-{
-    double reference[ISO_STATE], y[ISO_MAX_STATE], s;
-    const double end = 1e6;
-    const problem problems[] = {make_problem(ctx, "A ball", -1, &iso_system_ball, ISO_CLOCK_T),
-                                make_problem(ctx, "A point", -1, &iso_system_point, ISO_CLOCK_T)};
-    solve(ctx, -1, end, reference, &s);
-    printf("%-22s %-8s%5s%9s%9s\n", "t = 1e6", "problem", "tol", "error", "ms");
-    for (int form = 0; form < 2; form++)
-        for (int i = 0; rivals[i].name; i++) {
-            if (rivals[i].slow) continue;
-            memcpy(y, problems[form].start, sizeof problems[form].start);
-            const double begin = bench_milliseconds();
-            const bool done = rivals[i].solve(&problems[form].rivals, 1e-13, end, y);
-            print_long(rivals[i].name, &problems[form], 13, done ? error_of(&problems[form], y, reference) : NAN,
-                       bench_milliseconds() - begin);
-        }
-    for (int i = 0; i < count; i++)
-        for (int form = 0; form < 2; form++)
-            for (int d = 12; d <= 15; d++) {
-                const problem *p = &problems[form];
-                if (methods[i]->system && methods[i]->system != p->model.system) continue;
-                const double begin = bench_milliseconds();
-                const bool done = run(ctx, methods[i], p, pow(10, -d), end, y);
-                print_long(methods[i]->name, p, d, done ? error_of(p, y, reference) : NAN,
-                           bench_milliseconds() - begin);
-            }
-}
-
 int main(int argc, char **argv)
 {
     const iso_method *methods[MOST_METHODS];
     int count = 0;
-    const bool is_long = argc > 1 && strcmp(argv[1], "--long") == 0;
     iso_context *ctx = iso_context_create();
-    for (int i = 1 + is_long; i < argc && count < MOST_METHODS; i++) {
+    for (int i = 1; i < argc && count < MOST_METHODS; i++) {
         methods[count] = iso_method_find(argv[i]);
         if (!methods[count++])
             return fprintf(stderr, "bench_methods: no method, or several, are called '%s'\n", argv[i]), 2;
     }
-    for (int i = 0; argc == 1 + is_long && iso_methods[i] && count < MOST_METHODS; i++)
-        methods[count++] = iso_methods[i];
-    if (is_long) bench_long(ctx, methods, count);
-    for (int i = 0; !is_long && i < GEOMETRIES; i++) bench(ctx, geometries[i], methods, count);
+    for (int i = 0; argc == 1 && iso_methods[i] && count < MOST_METHODS; i++) methods[count++] = iso_methods[i];
+    for (int i = 0; i < GEOMETRIES; i++) bench(ctx, geometries[i], methods, count);
     iso_context_free(ctx);
     return 0;
 }

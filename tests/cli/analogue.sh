@@ -27,37 +27,28 @@ finds() {
     agrees "$of"
 }
 
-# is_readable NAME: the last scene's mass, radius and end are 1, 2 or 5 times a power of ten; its angular velocity is of
+# readable NAME ARGUMENT...: the scene's mass, radius and end are 1, 2 or 5 times a power of ten; its angular velocity is of
 # order one; its end is 10 to 100 turns away at this velocity
-is_readable() {
-    sed -n 's/^ball: *{mass: \([^,]*\), radius: \([^,]*\),.*/\1 \2/p; s/^time: *{end: \([^}]*\)}/\1/p' out | tr ' ' '\n' >round
-    check "$1: mass, radius and end" test "$(wc -l <round)" -eq 3
-    check "$1: round: $(tr '\n' ' ' <round)" test "$(grep -cxE '(0\.0*|)[125](0*|e[-+]?[0-9]+)' round)" -eq 3
-    omega=$(sed -n 's/^ *angular_velocity: \[\(.*\)\]}/\1/p' out | awk -F, '{ print sqrt($1 * $1 + $2 * $2 + $3 * $3) }')
-    at_most "$1: angular velocity" "$omega" 3
-    at_most "$1: angular velocity $omega, at least 0.3" 0.3 "$omega"
-    turns=$(awk -v omega="$omega" 'END { print omega * $1 / 6.2831853 }' round)
-    at_most "$1: turns" "$turns" 100
-    at_most "$1: turns $turns, at least 10" 10 "$turns"
-}
-
-# readable NAME ARGUMENT...
 readable() {
     of=$1
     shift
     run 0 analogue "$@"
-    is_readable "$of"
+    sed -n 's/^ball: *{mass: \([^,]*\), radius: \([^,]*\),.*/\1 \2/p; s/^time: *{end: \([^}]*\)}/\1/p' out | tr ' ' '\n' >round
+    check "$of: mass, radius and end" test "$(wc -l <round)" -eq 3
+    check "$of: round: $(tr '\n' ' ' <round)" test "$(grep -cxE '(0\.0*|)[125](0*|e[-+]?[0-9]+)' round)" -eq 3
+    omega=$(sed -n 's/^ *angular_velocity: \[\(.*\)\]}/\1/p' out | awk -F, '{ print sqrt($1 * $1 + $2 * $2 + $3 * $3) }')
+    at_most "$of: angular velocity" "$omega" 3
+    at_most "$of: angular velocity $omega, at least 0.3" 0.3 "$omega"
+    turns=$(awk -v omega="$omega" 'END { print omega * $1 / 6.2831853 }' round)
+    at_most "$of: turns" "$turns" 100
+    at_most "$of: turns $turns, at least 10" 10 "$turns"
 }
 
 # --- every branch
-readable "Neumann's own units" --neumann 1,2,2.5 --energy 2
 readable "large numbers" --neumann 1e10,2e10,2.5e10 --energy 2e10
 readable "a level" --neumann 1,2,4 --energy 2.25 --level
-readable "a plane" --k 1 --J 1.4,2.1,3 --eps 6.5
 readable "outside" --k 0.7 --J 1.4,2.1,3 --eps 6.5 --energy 2
-readable "inside" --k 2 --J 1.4,2.1,3 --eps 650
 prints -E '^ball: *\{mass: 3, radius: [0-9.]*, inertia' analogue --neumann 1,2,2.5 --energy 2 --mass 3
-prints -E '^ball: *\{mass: [0-9.]*, radius: 0.3, inertia' analogue --neumann 1,2,2.5 --energy 2 --radius 0.3
 finds "free Neumann" "ball: free: on the sphere V = E - eps (gamma, J gamma) with the ball's J = 2 E - c" --neumann 1,2,2.5 --energy 2
 finds "a stated body" "ball: free" --neumann 1,2,2.5 --energy 2 --mass 1 --radius 1
 check "2 E - c" grep -qx '# reduced: k = -1, J = 3 2 1.5' out
@@ -68,20 +59,11 @@ check "the body" grep -qx 'ball: {mass: 1, radius: 1, inertia: \[11, 7, 5\]}' ou
 finds "free Neumann of no body" "triangle inequality: J1 + J2 - J3 = -0.5" --neumann 1,2,4 --energy 2.25
 reports "--level gives one that has a body"
 check "k and J" grep -qx 'reduced: {k: -1, J: \[3.5, 2.5, 0.5\]}' out
-finds "Neumann with --level" "d = 10" --neumann 1,2,4 --energy 2.25 --level
-shows out '^ball: .*inertia' '^  level: {c: '
-finds "Neumann below the top" "no free ball: 2 E - c = 1 0 -1" --neumann 1,2,3 --energy 1
 finds "at rest" "energy M^2/2 + V = 0.5; V is between 0.5 and 1.5" --neumann 1,2,3 --energy 0.5
 check "a ball at rest" grep -q '^ *angular_velocity: \[0, 0, 0\]}$' out
-finds "plane" "ball: free, since the energy is 0" --k 1 --J 1.4,2.1,3 --eps 6.5
 finds "outside" "body: outside, m = 3, B = 0.1, A = 0.2333333333" --k 0.7 --J 1.4,2.1,3 --eps 6.5 --energy 2 --mass 3 --radius 0.1
-reports "no free ball: for k = 0.7 a free ball has E = 0"
-finds "inside" "eps and h are negative" --k 2 --J 1.4,2.1,3 --eps -1.5 --energy 1
 finds "k and J alone" "no body:" --k 2 --J 1.4,2.1,4 --eps 1.5
 check "no body" grep -qx 'reduced: {k: 2, J: \[1.4, 2.1, 4\]}' out
-finds "J + E/eps" "the ball's J = J + E/eps" --k -1 --J 1.4,2.1,3 --eps 4 --energy 2
-check "J + E/eps" grep -q '^# reduced: k = -1, J = 1.9 2.6 3.5$' out
-finds "a shell of eps < 0" "the ball's J = 2 E - c" --k -1 --J 1.4,2.1,3 --eps -1 --energy 4
 
 # --- a scene's start
 # carries NAME ENERGY EPS SECTIONS [ARGUMENT...]: a scene with these sections and its start
@@ -93,11 +75,7 @@ carries() {
     reports "energy M^2/2 + V = $energy;"
     reports "start: the scene's"
 }
-carries "E = 0" 0 0.5 'point: {k: -1, J: [1, 1.5, 2], eps: 0.5}'
 carries "E > 0" 0.41 0.25 'point: {k: -1, J: [1, 1.5, 2], eps: 0.25}'
-carries "E < 0" -0.41 0.75 'point: {k: -1, J: [1, 1.5, 2], eps: 0.75}' --mass 0.01 --radius 7
-carries "eps < 0" 2.46 -1 'point: {k: -1, J: [1, 1.5, 2], eps: -1}'
-carries "k = 1" 0.2102439024 1 'point: {k: 1, J: [1, 1.5, 2], eps: 1}'
 carries "a level stated" 0.3 0.3170731707 'point: {k: -1, J: [1, 1.5, 2]}
 effects: {level: {c: 0.1}}'
 cp point.yaml level.yaml
@@ -106,26 +84,12 @@ check "from standard input" cmp piped ball.yaml
 sed 's/^effects.*/effects: {level: {c: 0.1}, attitude: {}, clock: {}}/' point.yaml >more.yaml
 run 0 analogue more.yaml
 check "what acts on nothing is left out" cmp out ball.yaml
-sed 's/end: 20/end: -20/' point.yaml >back.yaml
-prints '^time: {end: -' analogue back.yaml
-agrees "backwards"
 
 # --- refusals
 refuses 2 "--neumann has k = -1" analogue --neumann 1,2,3 --k 2
 refuses 2 "--eps is missing" analogue --k 1 --J 1,2,3
-refuses 2 "--J is missing" analogue --k 1 --eps 2
-refuses 2 "--k is missing" analogue --eps 2
 refuses 2 "'point.yaml' and a problem in options" analogue --neumann 1,2,3 point.yaml
 refuses 2 "--energy needs --neumann" analogue --energy 1 point.yaml
-refuses 2 "--neumann '1,2': expected three numbers" analogue --neumann 1,2
-refuses 2 "--energy 'much': expected a number" analogue --neumann 1,2,3 --energy much
-for option in mass radius; do
-    refuses 2 "--$option '0': expected a positive number" analogue --neumann 1,2,3 --$option 0
-done
-run 0 analogue --neumann 1,2,3 --energy 1 --mass 1e-200 --radius 1e-100
-reports "no body:"
-agrees "a mass that does not fit"
-refuses 5 "cannot open 'absent.yaml'" analogue absent.yaml
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 5 0.25 >ball.yaml
 refuses 3 "ball.yaml: this scene is a ball already" analogue ball.yaml
 sed 's/^effects.*/effects: {field: {linear: [1, 0, 0]}}/' level.yaml >field.yaml

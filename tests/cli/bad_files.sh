@@ -1,6 +1,6 @@
 #!/bin/sh
-# bad_files.sh ISOROLL - every scene and sweep of the tables bad_*.txt, and every scene in bad/, whose
-# bytes no table can have, is refused with status 3 and nothing on standard output. The first line of a file is
+# bad_files.sh ISOROLL - every sweep of the tables bad_*.txt, and scenes of them and of bad/, whose bytes no table can
+# have, are refused with status 3 and nothing on standard output. (Every scene: test_scene.) The first line of a file is
 # `# expect LINE:COLUMN WORDS`: the place of the mistake, and a part of the message.
 # bad_files.sh --write FOLDER only makes the files, for test_scene and test_hard_input.
 here=$(cd "$(dirname "$0")" && pwd)
@@ -50,8 +50,9 @@ scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >bad/scene.yaml
 files=0
 for file in bad/*_*.yaml; do
     files=$((files + 1))
-    expected=$(sed -n '1s/^# expect //p' "$file")
     case $file in *_sweep_*) command=sweep ;; *) command=run ;; esac
+    [ $command = sweep ] || [ $((files % $(length 8 1))) -eq 0 ] || continue
+    expected=$(sed -n '1s/^# expect //p' "$file")
     refuses 3 "$file:${expected%% *}: " $command "$file" </dev/null
     check "$file: $expected" grep -F -q -e "${expected#* }" err
 done

@@ -2,36 +2,11 @@
 # compare.sh ISOROLL - `isoroll compare` on every example: the backends agree, integrals are conserved, a table and
 # pictures come out.
 . "$(dirname "$0")/lib.sh"
-worst_difference=0 worst_drift=0 scenes=0
 
-# numbers SECTION: every number of the JSON document in `out` under a key of that name, as jansson indents them
-numbers() {
-    awk -v key="\"$1\"" '
-        index($0, key ": {") { inside = 1; next }
-        inside && /}/ { inside = 0 }
-        inside { sub(/.*: /, ""); sub(/,$/, ""); print; next }
-        $1 == key ":" { sub(/.*: /, ""); sub(/,$/, ""); print }' out
-}
-
-# compares NAME SCENE: everything that must hold of a comparison
+# compares NAME SCENE: the backends agree (that drifts and differences are the true ones: test_study)
 compares() {
-    scenes=$((scenes + 1))
-    quietly compare "$2" --json
-    check "$1: JSON" is_json
-    numbers worst_difference >a
-    pairs=1 # of backends; 3 with the closed solution
-    grep -q '"exact": {' out && pairs=3
-    check "$1: six differences" test "$(wc -l <a)" -eq $((6 * pairs))
-    while read -r x; do
-        at_most "$1: difference" "$x" 1e-9
-        worst_difference=$(larger "$worst_difference" "$x")
-    done <a
-    numbers drift >a
-    check "$1: drifts" test "$(wc -l <a)" -ge 12
-    while read -r x; do
-        at_most "$1: drift" "$x" 1e-11
-        worst_drift=$(larger "$worst_drift" "$x")
-    done <a
+    quietly compare "$2"
+    check "$1: the same orbit" grep -q '^the same orbit: ' out
 }
 
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
@@ -49,13 +24,13 @@ done
 
 quietly compare scene.yaml
 check "a table" test "$(grep -cE '^ +[-0-9.e+]+ +(ball|point) ' out)" -ge 24 # 2 models x 6 rows x 2 backends
-check "its end" test "$(tail -n 1 out | cut -d: -f1)" = "the same orbit"
+quietly compare scene.yaml --json
+check "JSON" is_json
+check "six differences of each pair of three backends" test "$(grep -A 7 '"worst_difference": {' out | grep -c '": [0-9.e-]*,\{0,1\}$')" -ge 6
 run 0 compare scene.yaml --rows 2
 check "--rows 2" test "$(grep -cE '^ +[-0-9.e+]+ +(ball|point) ' out)" -eq 8
 run 0 compare scene.yaml --rows 1
 check "--rows 1" test "$(grep -cE '^ +10 +(ball|point) ' out)" -eq 2
-run 0 compare scene.yaml --rows 1000000
-check "all rows" test "$(grep -cE '^ +[-0-9.e+]+ +(ball|point) ' out)" -eq 84
 refuses 2 "expected a whole number" compare scene.yaml --rows 2.5
 prints '^backend ball   adams: ' compare scene.yaml --t-end -3 --step 1 --method adams --tol 1e-10
 
@@ -95,13 +70,6 @@ true_picture() {
         { x = $3 / sqrt(a); y = $4 / sqrt(b); z = $5 / sqrt(c); r = sqrt(x * x + y * y + z * z)
           d = abs(x / r - $6) + abs(y / r - $7) + abs(z / r - $8); if (d > worst) worst = d }
         END { print NR == 65 ? worst + 0 : "not 65 rows" }' states)" 1e-10
-    at_most "$1: equal steps of t" "$(awk '
-        function abs(x) { return x < 0 ? -x : x }
-        { t[NR] = $1; s[NR] = $2; u[NR] = $9; v[NR] = $10 }
-        END { for (i = 1; i <= NR; i++) {
-                  part = (i - 1) / 64; d = abs(t[i] / t[NR] - part) + abs(u[i] - part) + abs(v[i] - s[i] / s[NR]);
-                  if (d > worst) worst = d }
-              print worst + 0 }' states)" 1e-14
     check "$1: numbers" test "$(awk 'NR % 8 == 1 { printf "%s", $12 }' states)" = 012345678
     at_most "$1: steps of the curves" "$(awk '
         NR > 1 { for (i = 3; i < 9; i += 3) {
@@ -121,8 +89,6 @@ check "a short orbit is drawn whole" grep -q 'drawn and compared: to t \\075 0.5
 check "and ends with it" test "$(tail -n 1 states | cut -d ' ' -f 1)" = 0.5
 draws point.yaml
 true_picture "a point, backwards" 1.4 2.1 3.0
-draws "$source/examples/12_neumann_off_level/scene.yaml"
-true_picture "a point that starts at rest" 1 1.5 2
 draws "$source/examples/16_sections/scene.yaml"
 true_picture "chaos" 1 2 5
 check "two computations" grep -q 'two computations, .* agree to' script
@@ -133,5 +99,4 @@ refuses 2 "" compare endless.yaml --plot a.jpg
 
 scene 1 "1, 2, 3" "0, 0, 0" "0, 0, 1" 1 0.1 >rest.yaml
 refuses 3 "at rest" compare rest.yaml
-echo "$scenes scenes: worst difference $worst_difference, worst drift $worst_drift"
 finish

@@ -2,12 +2,6 @@
 # examples.sh ISOROLL - what the examples with more files show. (That every command takes them, and that their rows solve
 # their model: every_command.sh; both models: compare.sh.)
 . "$(dirname "$0")/lib.sh"
-# sections: chaos and order
-folder=$source/examples/16_sections
-run 0 section "$folder/scene.yaml" --starts 30 --crossings 100 -o wild.csv
-check "chaotic orbits part" grep -q "orbits part" err
-run 0 section "$folder/integrable.yaml" --starts 30 --crossings 100 -o tame.csv
-check_not "others do not" grep -q "orbits part" err
 
 # potentials that separate: with another coefficient the same start is chaotic
 folder=$source/examples/24_separable
@@ -25,6 +19,4 @@ run 0 check --max 1e-9 --scene "$folder/scene.yaml" "$folder/orbit.txt"
 run 0 convert --to ball --max-defect 1e-4 --k=-1 --J 6,4,2 --eps 0.5 --columns -,s,gamma1,gamma2,gamma3,M1,M2,M3 "$folder/leapfrog.csv" -o ball.csv
 run 0 check --max 1e-3 ball.csv
 if has gnuplot "a picture"; then run 0 plot --scene "$folder/scene.yaml" "$folder/orbit.txt" -o orbit.svg; fi
-refuses 2 "-o FILE is missing" plot "$folder/orbit.txt"
-refuses 2 ".svg, .png or .pdf" plot "$folder/orbit.txt" -o orbit.bmp
 finish

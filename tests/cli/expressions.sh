@@ -16,23 +16,10 @@ END
 
 # --- the level, written (its motion, and that of other effects: test_written)
 scene 'potential: {U: "c*n1^2 + 0.1*n1*n2 - n2^2/10 + 0.3*n3", parameters: {c: 0.3}}' >same.yaml
-scene 'potential: {U: "-c*(n1^2/J1 + n2^2/J2 + n3^2/J3)^(-1/k)", parameters: {c: 0.3}}' >same_level.yaml
-quietly run same_level.yaml --as both -o b.csv
-run 0 check --max 1e-11 b.csv
-run 0 compare same.yaml
-sed -n '/^# effects/,$!p' b.csv >lines
-check "the line of U" grep -qxF '# potential.U: -c*(n1^2/J1 + n2^2/J2 + n3^2/J3)^(-1/k)' lines
-check "the line of c" grep -qx '# potential.c: 0.3' lines
-
-# --- its files: converted, checked, damaged
 run 0 run same.yaml -o ball.csv
-run 0 convert --to point ball.csv -o point.csv
-run 0 check --max 1e-9 point.csv
-run 0 convert --to ball point.csv -o back.csv
-at_most "there and back" "$(difference ball.csv back.csv)" 1e-9
-sed 's/^# potential.c: 0.3/&1/' ball.csv >damaged.csv
-run 1 check --max 1e-6 damaged.csv
-check "another c is another motion" grep -q "ABOVE THE BOUND" out
+check "the line of U" grep -qxF '# potential.U: c*n1^2 + 0.1*n1*n2 - n2^2/10 + 0.3*n3' ball.csv
+check "the line of c" grep -qx '# potential.c: 0.3' ball.csv
+
 refuses_changed ball.csv 's/^# potential.U: .*/# potential.U: c*n4/' "U, column 3 of the text: unknown name 'n4'" check
 refuses_changed ball.csv '/^# potential.U/d' "effect 'potential' needs a line '# potential.U: ...'" check
 refuses_changed ball.csv '/^# potential.c/d' "U, column 1 of the text: unknown name 'c'" check
@@ -50,36 +37,17 @@ run 0 list effects
 shows out '^ *numbers: U \[parameters\]$' '^ *numbers: M \[parameters\] \[work\]$'
 refuses 3 "same.yaml:5:14: the closed solution is for" run same.yaml --backend exact
 
-run 0 section same.yaml --crossings 20 -o section.csv
-check "not global" grep -q '^# section: n1 = 0, increasing; not known to be global' section.csv
 run 0 chaos same.yaml
-run 0 frequencies same.yaml
-run 0 run same.yaml --method strang --as point -o strang.csv
 
 # --- a torque: what it says of the energy (each form: test_work)
-# works WORDS: so `explain` tells of the scene's torque
-works() {
-    prints "$1" explain torque.yaml
-}
 k=0.5
-scene 'torque: {M: ["m*(e2*n3 - e3*n2)", "m*(e3*n1 - e1*n3)", "m*(e1*n2 - e2*n1)"], parameters: {m: 0.7}}' \
-    "gravity: {mgb: 0, up: [0, 0.6, 0.8]}" >torque.yaml
-run 0 run torque.yaml -o b.csv
-run 0 check --max 1e-11 b.csv
-check "its work is not said" grep -qx '# torque.work: any' b.csv
-works 'work = any'
 scene 'torque: {M: ["-omega1 - omega2*exp(n1)", "omega1*exp(n1) - n3^2*omega2", "0"]}' >torque.yaml
-works 'work = lost'
-scene 'torque: {M: ["omega2*n3 - omega3*n2", "omega3*n1 - omega1*n3", "omega1*n2 - omega2*n1"]}' >torque.yaml
-works 'work = none'
+prints 'work = lost' explain torque.yaml
 scene 'torque: {M: ["-c*n3^2*omega1", "-c*n3^2*omega2", "-c*n3^2*omega3"], parameters: {c: 0.3}, work: lost}' >friction.yaml
 run 0 run friction.yaml -o c.csv
-run 0 check --max 1e-11 c.csv
 check "its work is lost" grep -qx '# torque.work: lost' c.csv
 refuses_changed c.csv 's/^# torque.work: .*/# torque.work: much/' "valid are any, none, lost" check
 refuses 3 "friction.yaml:5:11: " section friction.yaml
-run 0 explain friction.yaml
-check "explain: no energy" sh -c "sed '/^integrals that do not/q' out | grep -q 'ball  h ' && exit 1 || exit 0"
 
 # --- a false claim: an end with its place, and the rows before it (by every method, patches, true claims: test_work)
 patch='3*exp(-2000*((n1 - 0.105)^2 + (n2 - 0.892)^2 + (n3 + 0.439)^2))'
@@ -99,10 +67,6 @@ scene 'potential: {U: "0.1*sqrt(n1 + 0.1)"}' >root.yaml
 run 4 run root.yaml -o root.csv
 check "the last good time" grep -q "last good t = 6.1.*; there U of 'potential' has, in column 5 of the text, sqrt of " err
 check "the rows before it" test "$(rows root.csv | wc -l)" -eq 7
-
-scene 'torque: {M: ["0", "0.1*log(n1)", "0"]}' >log.yaml
-run 4 run log.yaml -o log.csv
-check "where" grep -q "; there M2 of 'torque' has, in column 5 of the text, log of " err
 
 # --- not finite where the ball starts (the ways to get there: bad_expressions.txt): bad input, whoever asks
 at="not a finite number where the ball starts, at"
@@ -127,8 +91,6 @@ for command in "run --t-end 1000 -o d.csv" "run --t-end -1000 --method rk8pd -o 
     words="'torque' drives the ball, without end: it turns more than 10000 times as fast as at the start; last good t = "
     check "$command: why" grep -q "$words" err
 done
-run 4 run friction.yaml --t-end -1000 -o c.csv
-check "friction backwards" grep -q "'torque' drives the ball" err
 fed="(1 - omega1^2 - omega2^2 - omega3^2)"
 scene "torque: {M: [\"omega1*$fed\", \"omega2*$fed\", \"omega3*$fed\"]}" |
     sed 's/angular_velocity.*/angular_velocity: [9e-6, -3e-6, -2.25e-6]}/' >fed.yaml
@@ -141,24 +103,15 @@ for command in "run --method rk8pd -o d.csv" chaos frequencies; do
     check "$command: which effect" grep -q "'torque'" err
 done
 
-# --- a torque of 0 by its numbers is taken, and gravity of 0 beside it
-scene 'torque: {M: ["0*n1", "0", "0"]}' "gravity: {mgb: 0, up: [0, 0.6, 0.8]}" >nothing.yaml
-run 0 run nothing.yaml -o a.csv
-
-# --- a constant in U changes nothing; the point, which would lose its digits, says so
-for c in 0 1e12; do
-    cat >constant.yaml <<END
+# --- a constant in U; the point, which would lose its digits, says so
+cat >constant.yaml <<END
 point: {k: 0.5, J: [1.4, 2.1, 3]}
 initial: {gamma: [0.6, 0, 0.8], M: [0, 1.3, 0]}
 time: {end: 2, step: 1}
-effects: {potential: {U: "$c + 0.1*n1"}}
+effects: {potential: {U: "1e12 + 0.1*n1"}}
 END
-    quietly run constant.yaml -o "constant_$c.csv"
-done
-at_most "U with 1e12" "$(difference constant_0.csv constant_1e12.csv)" 1e-10
+quietly run constant.yaml -o constant.csv
 refuses 4 "3.5e+12 times what can change of the energy: the point loses" run constant.yaml --backend point
-scene 'potential: {U: "n1^0 + n2*n1"}' | sed 's/normal: .*8]/normal: [0, 0.6, 0.8]/; s/ -0.3,/ 0.3,/' >power.yaml
-run 0 run power.yaml --t-end 1 -o power.csv
 
 # --- corners, of an even power under a root: where they are refused (which are: test_expression)
 scene 'potential: {U: "n1*(n1^2)^(-0.5)"}' >corner.yaml
@@ -173,8 +126,6 @@ scene 'potential: {U: "sqrt(n1^2 + 0.01)"}' >smooth.yaml
 run 0 run smooth.yaml --t-end 1 -o smooth.csv
 sed 's/ + 0.01)/)/' smooth.csv >corner.csv
 refuses 3 "column 1 of the text: this is the root of an even power" check corner.csv
-scene 'torque: {M: ["0", "0", "sqrt(omega1^2)"]}' >corner.yaml
-refuses 3 "corner.yaml:5:27: M3: this is the root of an even power" run corner.yaml
 
 # --- integrals that the scene claims: the energy of the valley, and what is none
 k=-1
@@ -188,39 +139,17 @@ for model in ball point; do
     check "$model F3" awk -v m=$model '$1 == m && $2 == "F3" { found = $3 > 1e-3 } END { exit !found }' out
 done
 run 0 run claims.yaml -o ball.csv
-run 0 convert --to point ball.csv -o point.csv
-run 0 convert --to ball point.csv -o back.csv
-for file in ball point back; do
-    check "$file: the line of F" grep -qxF "# integrals.F: $energy" $file.csv
-    check "$file: not of F2" sh -c "! grep -q 'integrals.F2' $file.csv"
-    run 1 check --max 1e-9 $file.csv
-    check "$file: F" awk '$2 == "F" { found = $3 < 1e-13 } END { exit !found }' out
-done
+check "the line of F" grep -qxF "# integrals.F: $energy" ball.csv
+check "not of F2" sh -c "! grep -q 'integrals.F2' ball.csv"
 run 0 compare claims.yaml
 check "compare: F" awk '$1 == "point" && $2 == "F" { found = $4 < 1e-13 && $5 < 1e-13 } END { exit !found }' out
 prints -x "integrals that the scene claims" explain claims.yaml
 check "explain: none holds" sh -c "sed -n '/^integrals that hold/,/^integrals that do not/p' out | grep -q 'F3' && exit 1 || exit 0"
-run 0 view ball.csv -o v.html
-scene 'potential: {U: "c*n1^2", parameters: {c: 0.3}}' >free.yaml
-run 0 run free.yaml -o a.csv
-at_most "the same rows without them" "$(difference a.csv ball.csv)" 0
 refuses_changed claims.yaml 's/F: "[^"]*"/F: "n4"/' "bad.csv:6:19: F: unknown name 'n4'" run
 refuses_changed claims.yaml 's/F: "[^"]*"/F: "3*c"/' "bad.csv:6:18: F is the same number at every state" run
 refuses_changed claims.yaml 's/F: "[^"]*"/F4: "n1"/' "bad.csv:6:15: unknown key 'F4'" run
-sed 's/F: "[^"]*"/F: "log(-1 - n1)"/' claims.yaml >never.yaml
-run 0 run never.yaml -o never.csv
-run 1 check --max 1e-9 never.csv
-check "it is defined nowhere" awk '$2 == "F" { found = $3 == "inf" } END { exit !found }' out
 
-# --- a point's scene, a sweep over a parameter
-{
-    echo "point: {k: -1, J: [1.4, 2.1, 3]}"
-    awk -F, '!/^#/ && $1 == 0 { printf "initial: {gamma: [%s, %s, %s], M: [%s, %s, %s]}\n", $5, $6, $7, $2, $3, $4 }' point.csv
-    echo "time: {end: 2, step: 0.5}"
-    tail -n 2 same.yaml
-} >from_point.yaml
-run 0 run from_point.yaml --as both -o p.csv
-run 0 check --max 1e-11 p.csv
+# --- a sweep over a parameter
 cat >sweep.yaml <<END
 scene: same.yaml
 vary: {potential.c: [0.1, 0.2, 0.3]}

@@ -1,31 +1,17 @@
 #!/bin/sh
-# frequencies.sh ISOROLL - `isoroll frequencies` on every example: closed or estimated, table, JSON, pictures,
-# refusals.
+# frequencies.sh ISOROLL - `isoroll frequencies`: closed or estimated, table, JSON, pictures, refusals. (Every example:
+# every_command.sh; the numbers: test_frequencies.)
 . "$(dirname "$0")/lib.sh"
-closed=0 estimated=0
 
-for file in "$source"/examples/*/scene.yaml; do
-    [ -f "$file" ] || continue
-    name=${file#"$source/"}
-    ! grep -q -E '^ *(rolling_resistance|twist):' "$file" || continue
-    quietly frequencies "$file" --json
-    check "$name: JSON" is_json
-    case $(grep '"solution"' out) in
-    *closed*) closed=$((closed + 1)) ;;
-    *) estimated=$((estimated + 1)) ;;
-    esac
-done
-check "closed solutions among the examples" test "$closed" -ge 4
-check "estimates among the examples" test "$estimated" -ge 3
+quietly frequencies "$source/examples/02_neumann_shell/scene.yaml" --json
+check "closed: JSON" is_json
+shows out '"solution": "closed'
 
 # --- a rotation: exact periods
 scene -1 "1, 2, 3" "0, 0, 2" "0.6, 0.8, 0" 10 0.5 >plane.yaml
 run 0 frequencies plane.yaml
 shows out '^  period  *3.14159265358979 ' '^the orbit is closed'
 
-# --- three equal moments: the axis that is told is the one whose M is the action
-scene 0.7 "2, 2, 2" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >round.yaml
-prints '^  angle 2: turns about axis 1' frequencies round.yaml
 
 # --- an estimate says so, and agrees with the closed solution
 scene 0.7 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >estimate.yaml
@@ -34,6 +20,7 @@ check "two angles, t, tau and s" test "$(grep -c '^  frequency  *[0-9.e+-]* ' ou
 shows out '^ESTIMATED from an orbit: regular' 'no closed solution: k = 0'
 prints '^ESTIMATED from an orbit: undecided' frequencies estimate.yaml --turns 20
 run 0 frequencies estimate.yaml --json --t-end 1000 --samples 5000
+check "estimated: JSON" is_json
 check "samples are a power of two" test "$(value samples)" -eq 8192
 check "--t-end" test "$(value length)" = 1000.0
 
@@ -58,16 +45,13 @@ for short in "--turns 1e-300" "--turns 19.9" "--t-end 1e-300" "--t-end 184"; do
     # shellcheck disable=SC2086 # an option and its value
     refuses 2 "turns: frequencies are estimated from 20 or more" frequencies estimate.yaml $short
 done
-refuses 2 ".svg, .png or .pdf" frequencies estimate.yaml --plot a.gif
 
 # --- pictures: maps for k = -1 and 1, lines for others
 if has gnuplot "--plot"; then
     quietly frequencies "$source/examples/02_neumann_shell/scene.yaml" --plot map.svg
     check "a map" grep -q 'rotation about axis 2, separatrix' map.svg
     steady map.svg
-    run 0 frequencies "$source/examples/12_neumann_off_level/scene.yaml" --plot map.svg
-    run 0 frequencies "$source/examples/06_braden_reduced/scene.yaml" --plot map.svg
-    for symmetric in "-1 1,1,2" "-1 1,1,1.000000000000001" "1 1,2,2"; do # the first part is empty
+    for symmetric in "-1 1,1,2" "1 1,2,2"; do # the first part is empty
         scene "${symmetric% *}" "${symmetric#* }" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >symmetric.yaml
         run 0 frequencies symmetric.yaml --plot symmetric.svg
         check "a map for $symmetric" grep -q 'this orbit' symmetric.svg
@@ -84,8 +68,7 @@ if has gnuplot "--plot"; then
     run 5 frequencies estimate.yaml --turns 50 --plot absent/a.svg
 fi
 
-# On a level: the ball with the potential of the level and its point have the same frequencies in every clock. (Those of
-# sections: test_frequencies.)
+# On a level: the ball with the potential of the level and its point have the same frequencies in every clock.
 for k in $(length 0.5 "0.5 -0.6"); do
     cat >ball_level.yaml <<END
 reduced: {k: $k, J: [1.4, 2.1, 3.0]}

@@ -12,9 +12,7 @@ effect() {
 
 # Orbits at these limits are in C (test_hard_twist, test_hard_rest, test_hard_contact); here is how the command ends.
 effect "twist: {resistance: 1.0e+12}" 5 >stiff.yaml
-for method in taylor rk8pd adams msadams dormand_prince_7_4_5; do
-    refuses 2 "take bdf or bsimp" run stiff.yaml --method $method
-done
+refuses 2 "take bdf or bsimp" run stiff.yaml --method taylor
 run 0 run stiff.yaml
 prints 'lambda' explain stiff.yaml
 run 3 compare stiff.yaml
@@ -24,59 +22,24 @@ refuses 3 "taylor.yaml:3:18: this model is stiff" run taylor.yaml
 
 hard_case "rest, t = 1e12" "|omega|, and rows" "w has left the doubles long before"
 effect "rolling_resistance: {coefficient: 1}, twist: {resistance: 2}, attitude: {}, reactions: {}, clock: {}" 1.0e+12 >rest.yaml
-for method in auto taylor rk8pd bsimp bdf adams; do
+for method in auto bdf; do # others: test_hard_rest
     run 0 run rest.yaml --method $method --tol 1e-10
     hard_hold "$(cell out -1 omega1 | tr -d -)" 0 ball $method
     check "$method: numbers" sh -c '! grep -i -q -e nan -e inf out'
 done
-effect "rolling_resistance: {coefficient: 1}" 200 >fading.yaml
-run 0 run fading.yaml --step 1 -o fading.csv
-run 0 check fading.csv --max 1e-9
-
 effect "rolling_resistance: {coefficient: 1}" -1000 >back.yaml
-for method in taylor rk8pd bsimp bdf; do
-    run 4 run back.yaml --method $method -o part.csv
-    check "$method: says why" grep -q "backwards in time resistance drives the ball" err
-done
+run 4 run back.yaml -o part.csv
+check "it says why" grep -q "backwards in time resistance drives the ball" err
 
 # All at once, each tiny: the ball with none of them but the twist.
 hard_case "all effects of 1e-300" "(omega, n) against the classical ball" "their units differ by 1e300 from those of the ball"
 effect "twist: {resistance: 0}" 5 >none.yaml
 effect "gravity: {mgb: -1.0e-300, up: [0, 0.6, 0.8]}, field: {linear: [0, 0, 1.0e-300]}, level: {c: 1.0e-300}, twist: {resistance: 1.0e-300}, \
 rolling_resistance: {coefficient: 1.0e-300}, attitude: {}, clock: {}" 5 >tiny.yaml
-for method in taylor rk8pd bsimp adams; do
+for method in taylor bsimp; do
     run 0 run none.yaml --method $method -o none.csv
     run 0 run tiny.yaml --method $method -o tiny.csv
     hard_hold "$(difference none.csv tiny.csv)" 1e-9 ball $method
-done
-
-hard_case "narrow features" "the last row by taylor against rk8pd" "steps of series went over them"
-for file in "$here"/narrow/*.yaml; do
-    for backend in ball point; do
-        run 0 run "$file" --backend $backend --method taylor --verbose -o series.csv
-        check "$file: the reference is of another kind" grep -q 'by rk8pd at tolerance' err
-        run 0 check series.csv --max 1e-9
-        run 0 run "$file" --backend $backend --method rk8pd -o steps.csv
-        hard_hold "$(difference series.csv steps.csv)" 1e-9 $backend taylor
-    done
-    run 0 convert series.csv --to point -o other.csv
-    run 0 convert other.csv --to ball -o back.csv
-    hard_hold "$(difference series.csv back.csv)" 1e-9 ball convert
-done
-# A swing in a plane: omega passes 0 at its turning points, and what the scene writes bounds no step there.
-hard_case "a planar swing" "the last row against taylor" "in units of omega all rates are infinite where it turns"
-cat >swing.yaml <<'END'
-reduced: {k: -1, J: [1.4, 2.1, 3]}
-initial: {normal: [0, 0, 1], angular_velocity: [0, 0.5, 0]}
-time: {end: 20, step: 1}
-effects: {potential: {U: "2*n1^2"}}
-END
-run 0 run swing.yaml --verbose -o swing.csv
-check "the error is known" grep -q 'error of (omega, n) at most' err
-run 0 check swing.csv --max 1e-9
-for method in rk8pd dormand_prince_7_4_5 bsimp; do
-    run 0 run swing.yaml --method $method -o other.csv
-    hard_hold "$(difference swing.csv other.csv)" 1e-9 ball $method
 done
 
 # --- once wrong
@@ -101,7 +64,7 @@ initial: {normal: [0, 0, 1], angular_velocity: [1, 0.3, 0]}
 time: {end: 5, step: 5}
 effects: {gravity: {mgb: 1, up: [0.6, 0.8, 0]}}
 END
-    for method in rk8pd bsimp dormand_prince taylor; do
+    for method in rk8pd taylor; do
         run 0 run near.yaml --method $method --tol 1e-13
         check "k = $k by $method" test "$(rows out | tail -n 1 | awk -F, '{ d = $2 - 4.03580775; print (d * d < 1e-15) }')" = 1
     done

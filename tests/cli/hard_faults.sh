@@ -55,7 +55,7 @@ spoken() {
 # starve STRIDE ARGUMENT...: every STRIDE-th call fails (short tests: fewer). `made` among the arguments is the file
 # written. Adds to $starved and $wrong.
 starve() {
-    stride=$(($1 * $(length 4 1)))
+    stride=$(($1 * $(length 8 1)))
     shift
     rm -f made good
     ISO_FAIL_COUNT=calls LD_PRELOAD=$ISO_NO_MEMORY "$isoroll" "$@" >good.out 2>err </dev/null ||
@@ -93,15 +93,13 @@ if [ -n "$ISO_NO_MEMORY" ]; then
     starve 3 check ball.csv
     starve 8 explain scene.yaml
     starve 8 compare scene.yaml
-    starve 90 compare scene.yaml --json
     starve 1 list
     starve 8 frequencies scene.yaml
     starve 12 frequencies open.yaml --turns 30
-    starve 15 frequencies scene.yaml --json
     starve 8 analogue "$source/examples/07_neumann_point/scene.yaml"
     starve 12 run effects.yaml -o made
     starve 15 run scene.yaml --verbose -o made
-    for method in adams bdf dormand_prince_7_4_5 rk8pd bsimp msbdf blanes_moan6; do
+    for method in bdf dormand_prince_7_4_5 bsimp; do # of each library
         starve 17 run scene.yaml --method $method --tol 1e-6 -o made
     done
     starve 17 run scene.yaml --backend exact -o made
@@ -116,27 +114,6 @@ if [ -n "$ISO_NO_MEMORY" ]; then
         n=$((n - 5))
     done
     hard_naive "SUNDIALS where room has not been made sure of: crashes" $crashed 0
-else
-    hard_skip "a sanitizer has a malloc of its own"
-fi
-
-hard_case "memory for cost" "runs of cost --quick that crash, tear a file, or succeed without the whole result" \
-    "a cell without memory is one that failed: exit status 1, and the others are told"
-if [ -n "$ISO_NO_MEMORY" ]; then
-    wrong=0
-    for n in 1 100 240 280 300 330 350 400 500 700 1000 2000; do
-        ISO_FAIL_AT=$n LD_PRELOAD=$ISO_NO_MEMORY "$isoroll" cost scene.yaml --quick --method taylor --tol 1e-9 --csv made >out 2>err
-        status=$?
-        case $status in
-        0) [ "$(wc -l <made)" -ge 3 ] ;;
-        1) grep -q "no memory" made ;;
-        4 | 5) spoken ;;
-        *) false ;;
-        esac && [ -z "$(find . -name '*.part')" ] ||
-            { wrong=$((wrong + 1)) && fail "cost: call $n: exit status $status"; }
-        rm -f made
-    done
-    hard_hold $wrong 0
 else
     hard_skip "a sanitizer has a malloc of its own"
 fi
@@ -178,7 +155,6 @@ hard_case "disk full" "runs that tear a file, leave a temporary one, or succeed 
 wrong=0
 fill "File too large" run scene.yaml --step 0.02 -o made
 fill "File too large" convert --to point ball.csv -o made
-fill "File too large" cost scene.yaml --quick --method taylor --tol 1e-9 --csv made
 if has gnuplot "a full disk for a picture"; then fill gnuplot compare scene.yaml --plot made.svg; fi
 hard_hold $wrong 0
 "$isoroll" run scene.yaml --step 0.02 >good
@@ -247,7 +223,7 @@ wrong=0
 mkdir stop
 for signal in INT TERM KILL; do
     [ $signal != INT ] || interruptible "SIGINT" || continue
-    for point in "worked 0" "written 4096" "written 1000000"; do
+    for point in "worked 0" "written 100000"; do
         cp ball.csv stop/made
         signalled $signal "$point" run scene.yaml --t-end 1e8 --step 1 -o stop/made
         if [ $signal = KILL ]; then

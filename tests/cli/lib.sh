@@ -297,11 +297,6 @@ steady() {
         grep -qE '<tspan[^>]* dy="[^" ]*">(( | )[^<]*|[^<]* )</tspan>|"[ ]?>[^<]* </tspan><tspan' "$1"
 }
 
-# larger A B: the larger of two numbers
-larger() {
-    awk -v a="$1" -v b="$2" 'BEGIN { print (a + 0 > b + 0 ? a : b) }'
-}
-
 # rows FILE: the rows of a trajectory, without header and # lines
 rows() {
     grep -v '^#' "$1" | tail -n +2
@@ -390,11 +385,6 @@ hard_hold() {
 hard_skip() {
     printf '%s\t%s\tskipped\t\t\t%s\t0\n' "$topic" "$case" "$1" >>"$table"
     skip "$case" "$1"
-}
-
-# hard_refused WORDS [BACKEND METHOD]: the right answer is to refuse (check that with `refuses`)
-hard_refused() {
-    printf '%s\t%s\trefused\t%s\t%s\t%s\t0\n' "$topic" "$case" "${2-}" "${3-}" "$1" >>"$table"
 }
 
 # hard_naive HOW VALUE BOUND: the naive formula must break the bound

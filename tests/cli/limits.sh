@@ -47,10 +47,6 @@ prints -x "$rows rows" check keys.csv
 keyed 4097 >keys.csv
 refuses 3 "more than 4096 lines '# key: value'" check keys.csv
 
-# --- numbers that ask for more than there is: rows (counts of sweeps: bad_files.txt)
-sed 's/step: *[0-9.]*/step: 1e-9/' scene.yaml >rows.yaml
-refuses 3 "100000000 rows" run rows.yaml
-
 # --- memory: a file is read row by row; 64 MiB hold 200000 rows of 27 MB and whatever comes
 awk -F, -v OFS=, '/^#/ { print; next } !seen++ { print; next } { row[++n] = $0 }
     END { for (i = 0; i < 200000; i++) print row[i % n + 1] }' ball.csv >long.csv

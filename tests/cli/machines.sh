@@ -1,5 +1,5 @@
 #!/bin/sh
-# machines.sh ISOROLL - what happens where something is missing: 64 bits, glibc, gnuplot, libraries.
+# machines.sh ISOROLL - what happens where something is missing: 64 bits, glibc, libraries.
 . "$(dirname "$0")/lib.sh"
 cc=${CC:-cc}
 
@@ -13,15 +13,8 @@ else
     skip "32 bits" "$cc cannot compile for them here"
 fi
 
-# --- without gnuplot: words, and no picture
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 5 0.5 >scene.yaml
 run 0 run scene.yaml -o ball.csv
-mkdir nothing
-checks=$((checks + 1))
-PATH=$PWD/nothing "$isoroll" plot ball.csv -o picture.svg >out 2>err
-[ $? -eq 5 ] || fail "plot without gnuplot: expected exit status 5"
-check "it names gnuplot" grep -q gnuplot err
-check "no picture" test ! -e picture.svg
 
 # --- musl, a C library without GNU's functions: everything but HDF5 compiles. Libraries for it are not at hand.
 if [ "$(length short full)" = full ] && has musl-gcc "musl"; then

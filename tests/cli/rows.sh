@@ -53,16 +53,10 @@ at() {
 }
 spoil 's/,/;/'
 at 1 "expected a finite number for t"
-spoil 's/,/,inf,/'
-at "$(sed -n "${line}p" ball.csv | awk -F, '{ print length($1) + 2 }')" "expected a finite number for omega1"
 spoil 's/,[^,]*$//'
 at "$(sed -n "${line}p" bad.csv | wc -c)" "expected 7 numbers, one for each column, found 6"
-spoil 's/$/,1/'
-at "$(($(sed -n "${line}p" ball.csv | wc -c) + 1))" "expected 7 numbers, one for each column, found more than 7"
 { head -n $((line - 1)) ball.csv && head -c 200000 /dev/zero | tr '\0' 1 && echo && tail -n +$((line + 1)) ball.csv; } >bad.csv
 at 1 "this line is longer than 64 KiB"
-{ head -n $((line - 1)) ball.csv && printf '1,\0002\n' && tail -n +$((line + 1)) ball.csv; } >bad.csv
-at 3 "a NUL byte"
 
 # --- check: the same residuals by quadrature as by integration; one number of one row is found
 residual=$(length 1e-13 1e-12) # times near 1000 are rounded to 1e-13
@@ -71,34 +65,18 @@ for as in ball point both; do
     "$isoroll" check --max "$residual" <"$as.csv" >piped
     check "$as: from a pipe" cmp piped out
 done
+# (every number of every column, every line, one orbit in far rows: test_check)
 row=$((count / 2))
-# finds FILE COLUMN FACTOR BOUND RESIDUAL...: that number of the row in the middle is multiplied
-finds() {
-    awk -F, -v OFS=, -v CONVFMT=%.17g -v c="$2" -v f="$3" -v row=$row \
-        '/^[0-9]/ && ++n == row { $c *= f } { print }' "$1.csv" >damaged.csv
-    what="$1, column $2 times $3"
-    run 1 check --max "$4" damaged.csv
-    shift 4
-    for residual; do
-        check "$what: $residual" grep -q "^  $residual  .*ABOVE THE BOUND" out
-        check "$what: $residual: the row" grep -Eq "^  $residual  *[0-9.e-]* *($row|$((row + 1))) " out
-    done
-}
-# (every number of every column, every line: test_check)
-finds ball 3 1.0000000001 1e-12 "ball flow"
-finds point 1 1.0000000001 1e-13 "point flow"
-finds both 3 1.0000000001 1e-12 "point flow" "clock t" "clock tau"
+awk -F, -v OFS=, -v CONVFMT=%.17g -v row=$row '/^[0-9]/ && ++n == row { $3 *= 1.0000000001 } { print }' both.csv >damaged.csv
+run 1 check --max 1e-12 damaged.csv
+for residual in "point flow" "clock t" "clock tau"; do
+    check "$residual: the row" grep -Eq "^  $residual  *[0-9.e-]* *($row|$((row + 1))) .*ABOVE THE BOUND" out
+done
 # two damages: the smaller one does not hide the larger one
 awk -F, -v OFS=, -v CONVFMT=%.17g '/^[0-9]/ { n++; if (n == 100) $6 += 1e-6; if (n == 200) $6 += 3e-6; if (n == 300) $6 += 1e-6 } { print }' \
     ball.csv >damaged.csv
 run 1 check --max 1e-9 damaged.csv
 check "the worst of three" grep -Eq '^  ball flow  *[0-9.e-]* *(200|201) ' out
-# rows of an attitude: integrated, as ever
-{ cat scene.yaml && echo "effects: {attitude: {}}"; } | sed 's/end: [0-9]*/end: 2/' >attitude.yaml
-run 0 run attitude.yaml -o attitude.csv
-prints '^  q flow ' check --max 1e-11 attitude.csv
-awk -F, -v OFS=, -v CONVFMT=%.17g '/^[0-9]/ && ++n == 100 { $8 += 1e-6 } { print }' attitude.csv >damaged.csv
-run 1 check --max 1e-9 damaged.csv
 
 # --- rows of nan
 awk -F, -v OFS=, '/^[0-9]/ && (++n == 50 || n == 51 || n == 3000) { $3 = "x" } { print }' ball.csv >bad.csv
@@ -109,15 +87,10 @@ silent
 awk -F, -v OFS=, -v CONVFMT=%.17g '/^[0-9]/ { n++; if (n == 48) $5 *= 1.000001 } { print }' marked.csv >damaged.csv
 run 1 check --max 1e-9 damaged.csv
 check "rows keep their numbers" grep -Eq '^  point [|]gamma[|]  *[0-9.e-]* *48 ' out
-sed 's/^nan,nan/nan,1/' marked.csv >damaged.csv
-run 3 check damaged.csv
-says "expected a finite number for s, not 'nan'"
 awk '/^[0-9]/ { gsub(/[^,]+/, "nan") } { print }' ball.csv >damaged.csv
 refuses 3 "all rows of the trajectory are nan" check damaged.csv
 if has gnuplot "plot of rows of nan"; then
     run 0 plot marked.csv -o marked.svg
-    says "3 rows of nan were passed over"
-    run 0 plot marked.csv --columns s,gamma3 -o marked.svg
     says "3 rows of nan were passed over"
 fi
 refuses 3 "expected a finite number for s, not 'nan'" convert --strict --to ball marked.csv -o none.csv

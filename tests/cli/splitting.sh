@@ -10,17 +10,6 @@ check "one row" grep -q '^ *0.5 .* 6.14708829830.*e-03 ' out
 # --- a list, as CSV
 quietly splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 -o split.csv -j 2
 check "k = 1: words" grep -q ' 0 .*not distinguishable from 0: below ' out
-run 0 splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 -j 1 --output -
-check "one thread gives the same" cmp -s out split.csv
-
-# --- a range, and the scene's start does not matter
-scene 0.9 "1.4, 2.1, 3.0" "0, 0, 2" "0.6, 0.8, 0" 3 0.5 >other.yaml
-run 0 splitting half.yaml --k 0.5:0.7:0.1 -o a.csv
-run 0 splitting other.yaml --k 0.7:0.5:0.1 -o b.csv
-check "three values" test "$(rows a.csv | wc -l)" -eq 3
-rows a.csv | sort >a.sorted
-rows b.csv | sort >b.sorted
-check "other starts, another order" cmp -s a.sorted b.sorted
 
 # --- a zero
 scene 1 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >wide.yaml
@@ -61,34 +50,23 @@ fi
 # --- ranges through 0 and through 1
 run 1 splitting half.yaml --digits double --k=-0.1:0.1:0.1 -o split.csv
 says "1 of 3 values of k failed: k = 0"
-near "k = -0.1, x" "$(cell split.csv 0 k)" -0.1 0
-near "k = 0.1" "$(cell split.csv 1 k)" 0.1 0
 check "0 is told" grep -q '^ *0  k = 0' out
-quietly splitting half.yaml --digits double --k=0.95:1.05:0.05 -o split.csv
-check "the sign changes" awk -v a="$(cell split.csv 0 m)" -v b="$(cell split.csv 2 m)" 'BEGIN { exit !(a > 0 && b < 0) }'
-near "0 between them" "$(cell split.csv 1 m)" 0 "$(cell split.csv 1 error)"
+run 0 splitting half.yaml --digits double --k=0.95:1.05:0.05
 check_not "k = 1 is no further zero" grep -q 'm = 0 at' out
 run 0 splitting half.yaml --digits double --k=-1.05:-0.95:0.1
 check_not "nor is -1, between two values" grep -q 'm = 0 at' out
 
-# --- levels: 1 the scene's; many; m falls as the level grows, and is 0 at k = 1
+# --- levels: 1 the scene's; many (the numbers: test_splitting_levels)
 cat >level.yaml <<END
 point: {k: 0.5, J: [1.4, 2.1, 3], eps: 1}
 initial: {gamma: [0.6, 0, 0.8], M: [0, 0.5, 0]}
 time: {end: 1, step: 1}
 END
 prints "^level of the point, (H/eps) J2^(1/k): -0.19928916282" splitting level.yaml --digits double -o split.csv
-near "in the CSV" "$(cell split.csv 0 level)" -0.199289162827174 1e-12
 run 0 splitting half.yaml --digits double --level=-0.2:0.2:0.2 -o split.csv
 check "as many levels" test "$(rows split.csv | wc -l)" -eq 3
 check "0 is 0" test "$(cell split.csv 1 level)" = 0
-check "m falls" awk -v a="$(cell split.csv 0 m)" -v b="$(cell split.csv 1 m)" -v c="$(cell split.csv 2 m)" 'BEGIN { exit !(a > b && b > c && c > 0) }'
-run 0 splitting half.yaml --digits double --k 1 --level 0.3,-0.2 --json
-check "k = 1: no m on any level" test "$(grep -c '"from_zero": false' out)" -eq 2
-check "JSON: the level" grep -q '"level": 0.29999999999999999' out
 refuses 3 "oscillation between two places of rest" splitting half.yaml --level=-0.9
-refuses 2 "many k and one level" splitting half.yaml --k 1,2 --level 1,2
-refuses 2 "expected values and ranges" splitting half.yaml --level x
 run 1 splitting half.yaml --digits double --level=-0.9,0
 says "1 of 2 values of the level failed"
 
@@ -97,19 +75,7 @@ run 0 splitting half.yaml --json
 for key in rows k x m error digits; do check "JSON: $key" grep -q "\"$key\":" out; done
 check "JSON: digits" grep -q '"digits": 19' out
 
-# --- pictures
-if has gnuplot "pictures"; then
-    run 0 splitting half.yaml --digits double --k 0.4:0.8:0.2 --plot scan.svg
-    check "a picture of a scan" grep -q '</svg>' scan.svg
-    run 0 splitting half.yaml --plot one.svg
-    check "a picture of one k" grep -q '</svg>' one.svg
-fi
-
-# --- a full disk, and Ctrl-C
-if [ -c /dev/full ]; then
-    run 5 splitting half.yaml --digits double -o /dev/full
-    says "/dev/full"
-fi
+# --- Ctrl-C
 refuses 5 "nowhere" splitting half.yaml -o nowhere/split.csv
 if interruptible "splitting after SIGINT"; then
     one_k() { grep -q '^ *0.3 ' out; }
@@ -119,15 +85,9 @@ if interruptible "splitting after SIGINT"; then
 fi
 
 # --- refusals
-refuses 2 "expected values and ranges" splitting half.yaml --k 1:2
-refuses 2 "expected values and ranges" splitting half.yaml --k 1:2:0
 for k in 1/0 1:2:3:4 '1,,2' x nan 1:2:1e-9 1e999; do
     refuses 2 "expected values and ranges" splitting half.yaml --k "$k"
 done
 refuses 2 "double, quad or auto" splitting half.yaml --digits few
 refuses 2 "choose one" splitting half.yaml -o - --json
-refuses 2 ".svg, .png or .pdf" splitting half.yaml --plot picture.bmp
-run 1 splitting half.yaml --k 0,0.5
-says "1 of 2 values of k failed"
-check "the other is there" grep -q '^ *0.5 ' out
 finish

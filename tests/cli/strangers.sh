@@ -69,18 +69,16 @@ kinds() {
 elsewhere="external-storage external-link external-group soft-external virtual user-link dangling round group"
 large="unwritten unpacked promised endless filter scaled twice wide-chunk reference compound"
 set -- "view bad.h5 -o made.html" "plot bad.h5 -o made.svg" "check bad.h5" "convert --to point bad.h5 -o made.csv"
-kinds "$elsewhere $large names lines both" good.h5 /clock/t "$@"
-kinds "external-storage external-link virtual unwritten" good.h5 /ball/omega "$@"
-kinds "external-storage external-link virtual unwritten unpacked" section.h5 /section/l \
-    "view bad.h5 -o made.html" "plot bad.h5 -o made.svg"
+kinds "$elsewhere $large names lines both" good.h5 /clock/t "check bad.h5"
+kinds "external-storage external-link virtual unwritten" good.h5 /clock/t "$@"
+kinds "external-link unpacked" section.h5 /section/l "view bad.h5 -o made.html"
 kinds "$elsewhere $large" sweep.h5 /sweep/k "plot bad.h5 -o made.svg"
 kinds "external-storage external-link unwritten" one.h5 "/sweep part/status" "sweep --merge bad.h5 two.h5 -o made.csv"
 kinds "external-link long-words" sweep.h5 /sweep/reason "plot bad.h5 -o made.svg"
 # older sweeps
 for file in sweep sweep_1 sweep_2; do gunzip -c "$source/tests/upgrade/6_$file.h5.gz" >old_$file.h5; done
-kinds "$elsewhere $large" old_sweep.h5 /vary/k "plot bad.h5 -o made.svg"
-kinds "$elsewhere $large" old_sweep_1.h5 /vary/k "sweep --merge bad.h5 old_sweep_2.h5 -o made.csv"
-kinds "external-storage external-link unwritten" old_sweep_1.h5 /status "sweep --merge bad.h5 old_sweep_2.h5 -o made.csv"
+kinds "$elsewhere" old_sweep.h5 /vary/k "plot bad.h5 -o made.svg"
+kinds "external-storage virtual unpacked" old_sweep_1.h5 /vary/k "sweep --merge bad.h5 old_sweep_2.h5 -o made.csv"
 kinds "external-link long-words" old_sweep.h5 /failed/reason "plot bad.h5 -o made.svg"
 # what is packed as others pack it is taken, with the same rows
 run 0 convert --to point good.h5 -o plain.csv
@@ -89,21 +87,4 @@ for set in /clock/t /ball/omega; do
     run 0 convert --to point bad.h5 -o packed.csv
     check "packed $set: the same rows" test "$(grep -v '^#' packed.csv | cksum)" = "$(grep -v '^#' plain.csv | cksum)"
 done
-# Python
-export ISOROLL_LIBRARY="${ISO_BUILD-}/libisoroll.so.0" PYTHONPATH="$source/apps/python" PYTHONDONTWRITEBYTECODE=1
-find_python isoroll
-if [ -z "$python" ]; then
-    skip "files of strangers in Python" "the package cannot be loaded"
-else
-    for kind in external-storage external-link virtual unpacked; do
-        stranger $kind good.h5 /clock/t
-        checks=$((checks + 1))
-        timeout -s KILL 20 "$python" -c "import isoroll
-try:
-    isoroll.read('bad.h5')
-except Exception as error:
-    print(error)" >out 2>err
-        grep -q "bad.h5: .*/clock/t" out || fail "Python, $kind: $(cat out)"
-    done
-fi
 finish

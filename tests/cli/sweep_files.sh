@@ -15,8 +15,6 @@ END
 run 0 sweep sweep.yaml -o all.csv
 run 0 sweep sweep.yaml -o one.csv --shard 1/2
 run 0 sweep sweep.yaml -o two.csv --shard 2/2
-run 0 sweep --merge one.csv two.csv -o merged.csv
-check "two shards" cmp merged.csv all.csv
 
 sed -n 's/^# scene | //p' all.csv >kept.yaml
 check "the result has the scene's text" cmp kept.yaml scene.yaml
@@ -33,9 +31,7 @@ for size in 0 18446744073709551615 9223372036854775807 -1; do
     head_of "points: $size"
     head_of "chunk: $size"
 done
-head_of "chunk: 9007199254740992"
 head_of "part: 3 of 2"
-head_of "part: 1 of 2305843009213693952"
 head_of "part: 1 of 18446744073709551615"
 { sed '/^# names/,$d' one.csv; printf '# names:'; awk 'BEGIN { for (i = 0; i < 5000; i++) printf " a/b" }'
     echo; sed '1,/^# names/d' one.csv; } >bad.csv
@@ -47,10 +43,8 @@ rows_of() {
     awk "/^[#p]/ { print; next } { n++ } $1" one.csv >bad.csv
     refuses 5 "$2" sweep --merge bad.csv two.csv -o new.csv
 }
-rows_of 'n == 2 { kept = $0; next } { print } n == 3 { print kept }' "moved or damaged"
 rows_of 'n != 6' "moved or damaged"
 rows_of '{ print } n == 6 { print }' "its end is missing, or there is more behind it"
-rows_of '{ print } n == 2 { print }' "moved or damaged"
 sed '$a\# more' all.csv >bad.csv
 has gnuplot "a curve of a file with too many lines" &&
     refuses 5 "its end is missing, or there is more behind it" plot bad.csv -o bad.svg
@@ -62,18 +56,16 @@ bytes=$(wc -c <two.csv)
 head -c $((bytes - 1)) two.csv >other.csv
 run 0 sweep --merge one.csv other.csv -o unended.csv
 check "a last line without end" cmp unended.csv all.csv
-for less in 2 3 9 24; do
+for less in 2 24; do
     head -c $((bytes - less)) two.csv >other.csv
     refuses 5 "its end is missing" sweep --merge one.csv other.csv -o new.csv
 done
-for less in 25 26 30 60; do
+for less in 25 60; do
     head -c $((bytes - less)) two.csv >other.csv
     refuses 5 "cannot read 'other.csv'" sweep --merge one.csv other.csv -o new.csv
 done
 # --- numbers that were changed: the sum of the rows tells
 sed '$ y/0123456789abcdef/123456789abcdef0/' one.csv >bad.csv
-refuses 5 "its rows were changed after it was written" sweep --merge bad.csv two.csv -o new.csv
-awk -F, 'BEGIN { OFS = "," } /^[1-9]/ && !done { $2 = 1 $2; done = 1 } { print }' one.csv >bad.csv
 refuses 5 "its rows were changed after it was written" sweep --merge bad.csv two.csv -o new.csv
 # --- texts and heads that were changed under the old hash; both parts alike, so that they go together
 # changed SCRIPT: by this script of sed
@@ -129,11 +121,9 @@ for kind in fails inside; do
     run 1 sweep $kind.yaml -o $kind.csv
     run 1 sweep "$PWD/$kind.yaml" -o absolute.csv
     check "$kind: an absolute path" cmp absolute.csv $kind.csv
-    run 1 sweep below/../$kind.yaml -o detour.csv
-    check "$kind: a detour" cmp detour.csv $kind.csv
     (cd below && "$isoroll" sweep ../$kind.yaml -o below.csv 2>/dev/null)
     check "$kind: another folder" cmp below/below.csv $kind.csv
-    rm absolute.csv detour.csv below/below.csv
+    rm absolute.csv below/below.csv
 done
 check "the reason names the scene" grep -q '"scene.yaml:1:14: k = 0' fails.csv
 check "the reason names the sweep" grep -q '"<sweep>:2:16: k = 0' inside.csv
@@ -149,8 +139,6 @@ refuses 5 "is the result of another sweep" sweep fails.yaml -o all.$h5 --resume
 cp all.$h5 before.$h5
 quietly sweep sweep.yaml -o all.$h5 --resume
 check "a result that is there stays" cmp all.$h5 before.$h5
-run 1 sweep fails.yaml -o fails.csv --resume
-says "1 of 2 points failed; the first is point 0: scene.yaml:1:14: k = 0"
 cp thesis.csv new.csv.part
 refuses 5 "is no file of a sweep: it would be overwritten" sweep sweep.yaml -o new.csv --resume
 check "the thesis" cmp thesis.csv thesis.copy
@@ -210,23 +198,21 @@ torn() {
     check "$1" cmp torn.$h5 long.$h5
     rm torn.$h5
 }
-for more in 1 30 10000 words; do
+for more in 1 10000 words; do
     case $more in words) printf '7,0.3' ;; *) head -c $more /dev/zero ;; esac | cat part - >torn
     torn "$more behind the last chunk"
 done
 size=$(wc -c <part)
-for less in 0 1 2 5 9 20 40 77 200; do # also in the header
+for less in 0 5 40 200; do # also in the header
     head -c $((size - less * less / 4)) part >torn
     torn "cut short by $less"
 done
-head -c 300 part >torn
-torn "cut in its header"
 awk '/^[0-9]/ && ++n == 3 { sub(/,0,$/, ",x,") } { print }' part >torn
 torn "a damaged row"
 grep -v '^1,' part >torn
 torn "a row that is missing"
 # --- kill -9 when some chunks more are in the part, then another number of threads; SIGTERM and SIGINT
-tries=0 kills=$(length 6 20)
+tries=0 kills=$(length 4 20)
 while [ $tries -lt "$kills" ]; do
     begin=$(cat "$(part_of killed.$h5)" 2>/dev/null | wc -c)
     "$isoroll" sweep long.yaml -o killed.$h5 --resume -j $((tries % 3 + 1)) 2>/dev/null &

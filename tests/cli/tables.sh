@@ -229,21 +229,4 @@ check "an odd name" test "${5-}" = "$odd"
 run 0 chaos --turns 3 --csv - - <ball.yaml
 check "a scene from standard input" grep -qx '# command: isoroll chaos --turns 3 -' out
 
-# Other programs read on.
-run 0 plot ball.csv --columns t,n3 -o ball.svg
-if has python3 "pandas" && python3 -c 'import pandas' 2>/dev/null; then
-    for file in ball.chaos.csv starts.csv ball.periodic.csv follow.csv chart.csv k.csv cost.csv section.csv swept.csv; do
-        check "pandas reads $file" python3 -c '
-import sys, pandas
-table = pandas.read_csv(sys.argv[1], comment="#")
-rows = [line for line in open(sys.argv[1]) if not line.startswith("#")]
-assert list(table.columns) == rows[0].strip().split(",") and len(table) == len(rows) - 1' "$file"
-    done
-fi
-if has gnuplot "gnuplot"; then
-    for pair in starts.csv:2 ball.periodic.csv:3 follow.csv:4 chart.csv:2 k.csv:1 cost.csv:3; do
-        gnuplot -e "set datafile separator ','; stats '${pair%:*}' using ${pair#*:} nooutput; print STATS_records" 2>count
-        at_most "gnuplot reads $pair" "-$(cat count)" -1
-    done
-fi
 finish

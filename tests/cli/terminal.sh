@@ -82,13 +82,6 @@ sed '/^cost of/d' at_120/explain_1*.out at_120/explain_0*.out >explained
 check "explain has numbers" test "$(grep -c '[0-9]\.[0-9]' explained)" -ge 20
 check "explain: no digit too many: $(noisy explained | head -n 1)" test -z "$(noisy explained)"
 check "files: no digit too many" test -z "$(grep '^# [kJ]\|^# tol' both.csv >lines && noisy lines)"
-tried=0
-for x in 0.1 0.30000000000000004 1e-320 5e-324 123456789.123 2.2250738585072014e-308 1.7976931348623157e+308 0.1000000000000001; do
-    sed "s/k: -1/k: 2/; s/J: \[1.4/J: [-$x/" scene.yaml >wrong.yaml
-    tried=$((tried + 1))
-    refuses 3 "J1 = -$x: moments" run wrong.yaml
-done
-check "a message does not round a number to one that is right" test "$tried" -eq 8
 refuses 3 "'tolerance' is 0.1000001, it must be" run - <<END
 $(cat scene.yaml)
 solver: {tolerance: 0.1000001}
@@ -98,8 +91,6 @@ END
 "$isoroll" --help >help
 check "four groups" test "$(grep -cE '^(start|study|many|reference)(:|$)' help)" -eq 4
 check "each command once" test -z "$(echo "$commands" | sort | uniq -d)"
-check "all commands" test "$(echo "$commands" | sort | tr '\n' ' ')" = \
-    "$("$isoroll" manual isoroll | sed -n 's/^\.BR isoroll\\-\([a-z]*\) (1)$/\1/p' | sort -u | tr '\n' ' ')"
 
 # --- the result of compare, in its last line
 verdict() { # WORDS ARGUMENT...

@@ -46,19 +46,6 @@ for file in $files; do
         at_most "$file: to $model" "$(difference wanted.csv converted.csv)" 1e-9
     done
 done
-# the rows of HDF5 files, through Python
-export ISOROLL_LIBRARY="${ISO_BUILD-}/libisoroll.so.0" PYTHONPATH="$source/apps/python" PYTHONDONTWRITEBYTECODE=1
-find_python isoroll
-if [ -n "$hdf5" ] && [ -n "$python" ]; then
-    for file in [3-5]_*.h5; do
-        now=${file#*_} now=${now%.*}
-        case $file in [2-4]_effects*) now=before ;; esac
-        "$python" -c "import isoroll; isoroll.write(isoroll.read('$file'), 'old.csv')" 2>err || fail "$file in Python"
-        at_most "$file: the orbit of its scene" "$(difference old.csv $now.now)" 1e-9
-    done
-else
-    skip "rows of files in HDF5" "they are read through Python with NumPy, not with sanitizers"
-fi
 command -v gnuplot >/dev/null || skip "pictures of old files" "gnuplot is not installed"
 
 # --- HDF5 files of machines that store the other end of a number first: the same numbers

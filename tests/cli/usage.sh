@@ -57,26 +57,12 @@ nearest --plot frequencies --plott a.svg scene.yaml
 nearest --t-end run --tend 3 scene.yaml
 nearest rk8pd run --method rk8pp scene.yaml
 nearest ball run --backend bal scene.yaml
-nearest both run --as bot scene.yaml
-nearest point convert --to poin ball.csv
-nearest both section --model boht scene.yaml
-nearest quad splitting --digits qad scene.yaml
 nearest omega1 section --event omga1=0.5 scene.yaml
-nearest omega1 plot ball.csv --columns t,omga1 -o a.svg
 nearest omega1 check ball.csv --columns t,omga1,omega2,omega3,n1,n2,n3
 nearest methods list metods
 nearest frequencies manual frequences
 sed 's/^# effects.*//; s/^# k:/# effects: gravty\n# k:/' ball.csv >wind.csv
 nearest gravity check wind.csv
-for wrong in "output: {as: bal}#ball" "output: {columns: [t, omga1]}#omega1" "solver: {backend: pont}#point" \
-    "solver: {method: tylor}#taylor" "effects: {gravty: {}}#gravity" "efects: {}#effects"; do
-    { cat scene.yaml && echo "${wrong%#*}"; } >wrong.yaml
-    nearest "${wrong#*#}" run wrong.yaml
-done
-for wrong in "measure: {caos: {}}#chaos" "measure: {chaos: {stats: 3}}#starts" "measur: {}#measure"; do
-    printf 'scene: scene.yaml\nvary: {k: [0.5, 1]}\nuntil: {turns: 3}\n%s\n' "${wrong%#*}" >wrong.yaml
-    nearest "${wrong#*#}" sweep wrong.yaml
-done
 
 # --- a file of another kind: what it is, and which commands take it
 printf 'scene: scene.yaml\nvary: {k: [0.5, 1]}\nmeasure: {rotations: {}}\n' >sweep.yaml
@@ -160,33 +146,8 @@ for topic in systems backends methods surfaces integrals clocks columns; do
 done
 check "list methods" grep -q '^  rk8pd ' list
 
-# --- closed pipes and full disks (more commands, and nothing that reads: hard_faults.sh)
-for arguments in "run scene.yaml --step 1e-4" "explain scene.yaml"; do
-    # shellcheck disable=SC2086 # a list
-    first=$("$isoroll" $arguments 2>err | head -n 1)
-    check "isoroll $arguments | head -1: a line" test -n "$first"
-    check "isoroll $arguments | head -1: quiet" test ! -s err
-done
-mkfifo pipe
-if [ -c /dev/full ]; then
-    "$isoroll" run scene.yaml >/dev/full 2>err
-    says "No space left on device"
-    refuses 5 "cannot write '/dev/full': No space left on device" run scene.yaml -o /dev/full
-fi
-# The answers are in the file `full`. It is absent where the file system cannot be set up.
-cat >full.sh <<'END'
-mkdir full.d && mount -t tmpfs -o size=16k none full.d || exit
-for picture in svg png pdf; do "$1" plot long.csv -o full.d/a.$picture; done 2>full
-if "$1" run scene.yaml --t-end 0.1 --step 0.1 -o a.h5; then "$1" run scene.yaml --step 0.01 -o full.d/a.h5 2>>full; fi
-ls -A full.d >>full
-END
-"$isoroll" run scene.yaml --step 0.005 -o long.csv
-if has gnuplot "pictures on a full disk" && unshare -rm sh full.sh "$isoroll" 2>/dev/null; [ -e full ]; then
-    check "a full disk: says so" test "$(grep -c "cannot write 'full.d/a.*': No space left on device" full)" -ge 3
-    check_not "a full disk: nothing else, no file" grep -qv "cannot write 'full.d/a.*': No space left on device" full
-else
-    skip "pictures on a full disk" "no file system can be mounted here"
-fi
+
+# --- disks (more: hard_faults.sh, which has pipes and streams as well)
 if "$isoroll" run scene.yaml -o a.h5 2>err; then
     (ulimit -f 4 && exec "$isoroll" run scene.yaml --step 0.01 -o b.h5) 2>err
     check "HDF5 and a limit on files" grep -q "cannot write 'b.h5': File too large" err
@@ -213,18 +174,6 @@ for signal in INT TERM; do
     says "interrupted: $(rows stopped.csv | wc -l) of"
     signalled $signal "worked 20" run scene.yaml --t-end 1e10 --step 1e10 --backend ball -o stopped.csv # within a row
     says "interrupted: $(rows stopped.csv | wc -l) of"
-done
-# sleeps PID: it waits for something
-sleeps() {
-    grep -q '^State:.*S' "/proc/$1/status" 2>/dev/null
-}
-for signal in INT TERM; do
-    [ $signal != INT ] || interruptible "SIGINT" || continue
-    # without something to save it just ends
-    exec 4<>pipe
-    signalled "$signal" sleeps convert --to point - <pipe
-    exec 4>&-
-    check "convert ends" test $status -gt 128
 done
 
 # --- a closed standard stream

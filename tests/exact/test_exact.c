@@ -75,47 +75,6 @@ static void check_reference(void)
     gsl_test(!(solved == 10 && worst < 1e-12), "%d of 10 reference states, and their s: %.1e", solved, worst);
 }
 
-/* Any angles to a state and back; and the states of the orbit to their angles and back. */
-static void check_angles(void)
-{
-    static const double ks[] = {1, -1, 0.3, -2, 1, -1};
-    double worst_angle = 0, worst_state = 0;
-    int failed = 0;
-    iso_random *random = iso_random_create(11);
-    for (int i = 0; i < 60; i++) {
-        double J[3], y[ISO_STATE], again[ISO_STATE], clocks[ISO_CLOCKS], angle[2], back[2];
-        for (int j = 0; j < 3; j++) J[j] = iso_random_uniform(random, 1, i % 2 == 0 ? 2 : 5);
-        const int kind = i % 6;
-        if (kind == 2 || kind == 3) J[i % 3] = J[(i + 1) % 3];
-        orbit o = orbit_sample(ctx, &iso_system_point, ks[kind], J, 300 + (unsigned long)i);
-        if (kind > 3) o.y0[1] = o.y0[2] = o.y0[3] = 0, remove_along(o.y0, o.y0 + 3);
-        iso_exact *exact;
-        if (iso_exact_create(ctx, &o.model.problem, o.y0, all_clocks, &exact) != ISO_OK) {
-            failed++;
-            continue;
-        }
-        const int angles = iso_exact_describe(exact).angles;
-        for (int j = 0; j < 20; j++) {
-            for (int a = 0; a < 2; a++) angle[a] = iso_random_uniform(random, 0, 2 * M_PI);
-            failed +=
-                iso_exact_point(ctx, exact, angle, y) != ISO_OK || iso_exact_angles(ctx, exact, y, back) != ISO_OK;
-            for (int a = 0; a < angles; a++)
-                worst_angle = fmax(worst_angle, fabs(remainder(back[a] - angle[a], 2 * M_PI)));
-            iso_exact_at(ctx, exact, ISO_CLOCK_T, iso_random_uniform(random, -9, 9), y, clocks);
-            failed +=
-                iso_exact_angles(ctx, exact, y, back) != ISO_OK || iso_exact_point(ctx, exact, back, again) != ISO_OK;
-            for (int m = 0; m < ISO_STATE; m++)
-                worst_state = fmax(worst_state, fabs(again[m] - y[m]) / (1 + norm(y)));
-            if (angles == 1) worst_angle = fmax(worst_angle, isnan(back[1]) ? 0 : 1);
-        }
-        iso_exact_free(exact);
-    }
-    gsl_test(failed > 0, "angles of 60 orbits: %d failed", failed);
-    gsl_test(!(worst_angle < 1e-11), "angles to states and back: %.1e", worst_angle);
-    gsl_test(!(worst_state < 1e-13), "states to angles and back: %.1e", worst_state);
-    iso_random_free(random);
-}
-
 /* From an umbilic of J = (1, 2, 3): always on the separatrix, away from a rotation about axis 2 and back to it.
  * There is no linear growth of errors to compare by: the stepped orbit itself loses the separatrix. */
 static void check_homoclinic(void)
@@ -214,7 +173,6 @@ int main(void)
     gsl_test(!(energy < 1e-14), "their energy and |gamma| - 1: %.1e", energy);
     gsl_test(refused > ORBITS / 40, "%d refused, too close to the separatrix", refused);
     check_reference();
-    check_angles();
     check_homoclinic();
     check_small_oscillations();
     check_nearly_round();

@@ -177,29 +177,6 @@ static void check_limit(iso_random *random)
     laws_report(&worst, "K -> 0");
 }
 
-/* A state of the orbit has angles from which it comes back, and its mirror image in time has none. */
-static void check_angles(iso_random *random)
-{
-    laws_worst worst = {0};
-    int wrong = 0;
-    for (int i = 0; i < 60; i++) {
-        const orbit o = random_orbit((family)(i % PLANE), i, random);
-        double y[ISO_STATE], again[ISO_STATE], angle[2], clocks[ISO_CLOCKS];
-        iso_exact *exact = exact_create(&o);
-        for (int j = -3; j <= 3; j++) {
-            iso_exact_at(ctx, exact, ISO_CLOCK_S, 1.7 * j * o.unit, y, clocks);
-            wrong += iso_exact_angles(ctx, exact, y, angle) != ISO_OK ||
-                     iso_exact_point(ctx, exact, angle, again) != ISO_OK;
-            laws_note(&worst, laws_distance(again, y) / (1 + norm(y)), 1e-11, &o.model.problem.p, "angles");
-            scale(y, -1);
-            wrong += iso_exact_angles(ctx, exact, y, angle) == ISO_OK;
-        }
-        iso_exact_free(exact);
-    }
-    laws_report(&worst, "a state, its angles, and back");
-    gsl_test(wrong, "%d states have no angles, or a mirror image has some", wrong);
-}
-
 /* With three equal moments the frequency of the first angle is dH/dI, by differences of neighbours of the same momentum
  * about K, in a clock of the point: an independent test of the action. */
 static void check_actions(iso_random *random)
@@ -272,7 +249,6 @@ int main(void)
     check_random();
     check_strong();
     check_limit(random);
-    check_angles(random);
     check_actions(random);
     check_separatrix();
     refused((const double[3]){1.4, 2.1, 3}, (const double[3]){0, 0, 0.5}, "closed solution only where");

@@ -10,9 +10,6 @@
  *     the closed solution:                       the same */
 #include "hard.h"
 
-#include "map/state.h"
-#include "method/integrator_impl.h"
-
 static iso_context *ctx;
 
 static const double bodies[][3] = {{1, 1.2, 1.5}, {1.4, 2.1, 3.0}, {1, 30, 1000}};
@@ -179,30 +176,13 @@ static void close_book(void)
     }
 }
 
-/* (24) as it stands in t, by rk8pd; or the ball by a step of rk4 of a given length: how far off omega and n are. */
-static double naive(const question *q, const iso_system *system, double step)
-{
-    const bool none[ISO_CLOCKS] = {false};
-    double y[ISO_STATE], size;
-    iso_integrator *it = NULL;
-    iso_sample truth;
-    iso_problem f = {.p = q->p};
-    f.energy = iso_system_ball.energy(&f, q->start.y, &size);
-    f.eps = iso_coupling(&q->p, f.energy);
-    copy(q->start.y, y, ISO_STATE);
-    if (system == &iso_system_point) f.energy = 0, iso_ball_to_point(&q->p, y, y);
-    const iso_model model = iso_model_assemble(system, &f, ISO_CLOCK_T, none);
-    const iso_method_options o = {.tolerance = step > 0 ? 0 : 1e-12, .fixed_step = step};
-    iso_status status = iso_integrator_create(ctx, iso_method_find(step > 0 ? "rk4" : "rk8pd"), &model, &o, &it);
-    if (status == ISO_OK) status = iso_integrator_start(it, y);
-    if (status == ISO_OK) status = iso_integrator_at(it, q->time, y);
-    iso_integrator_free(it);
-    if (status != ISO_OK || solve_quad(ISO_BACKEND_BALL, q, &truth) != ISO_OK) return NAN;
-    if (system == &iso_system_point) iso_point_to_ball(&q->p, y, y);
-    return hard_error(y, truth.ball);
-}
-
 /* --- the cases -------------------------------------------------------------------------------------------------- */
+
+/* At the short length each body turns one way. */
+static bool is_taken(int b, int sign)
+{
+    return tests_length(0, 1) || (b + (sign > 0)) % 2;
+}
 
 static void small(void)
 {
@@ -213,11 +193,9 @@ static void small(void)
         for (double k = 0.1; k > 5e-7; k /= 10)
             for (int sign = -1; sign <= 1; sign += 2) {
                 const question q = ask(sign * k, bodies[b], 3);
-                judge_by_quad(&q);
+                if (is_taken(b, sign)) judge_by_quad(&q);
             }
     close_book();
-    const question q = ask(1e-4, bodies[1], 3);
-    hard_naive("(24) as it stands, M in doubles", naive(&q, &iso_system_point, 0), 1e-3);
 }
 
 static void powers(void)
@@ -270,8 +248,6 @@ static void under_effects(void)
                 judge_by_quad(&q);
             }
     close_book();
-    const question q = ask(1e-4, bodies[1], 3);
-    hard_naive("(24) as it stands, M in doubles", naive(&q, &iso_system_point, 0), 1e-3);
 }
 
 static void large(void)
@@ -285,11 +261,9 @@ static void large(void)
             for (int sign = -1; sign <= 1; sign += 2) {
                 question q = ask(sign * k, bodies[b], 10 / k);
                 q.all = true;
-                judge_by_quad(&q);
+                if (is_taken(b, sign)) judge_by_quad(&q);
             }
     close_book();
-    const question q = ask(1e6, bodies[1], 1e-5);
-    hard_naive("rk4, 1e5 steps in a turn of the ball", naive(&q, &iso_system_ball, 1e-5), 1e-3);
 }
 
 /* n = (cos kWt, -sin kWt, 0), omega = W e3: the same orbit for every k, but for its rate. */
@@ -311,9 +285,6 @@ static void rotation(void)
             judge(&q, &truth, 14);
         }
     close_book();
-    question q = ask(1e6, bodies[1], 1.4e-5);
-    copy((const double[]){0, 0, 1, 1, 0, 0}, q.start.y, ISO_STATE);
-    hard_naive("rk4, 1e5 steps in a turn of the ball", naive(&q, &iso_system_ball, 1.4e-5), 1e-3);
 }
 
 /* States at k, and the same numbers at k0: neighbours differ by rounding alone. */

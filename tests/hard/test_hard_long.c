@@ -2,17 +2,12 @@
  * promise.
  *
  * A spin is 1/|omega| at the start, the time in which the ball turns by a radian. At full length (length.h) the
- * fastest methods go a million spins, at short length 1e5; the others go less far. `test_hard_long 1e6 600` takes
- * every method at k = -1 to 1e6 spins, or as far as 600 seconds of processor time go, and says how far.
+ * fastest methods go a million spins, at short length 1e5; the others go less far.
  */
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
-
 #include "hard_long.h"
 #include "method/integrator_impl.h"
 
 static iso_context *ctx;
-static double all_spins, all_seconds; /* of every method at k = -1; 0: what a test has time for */
 static long_run runs[HARD_WAYS];
 
 static const hard_road by_exact = {ISO_BACKEND_EXACT, NULL, 1e-12};
@@ -39,7 +34,6 @@ static double length_of(const hard_road *way, double k)
 {
     static const char *const fast[] = {"taylor", "blanes_moan6"};
     const double part = k == -1 ? 1 : 0.1;
-    if (k == -1 && all_spins > 0) return all_spins;
     for (int i = 0; i < 2 && way->method; i++)
         if (strcmp(way->method->name, fast[i]) == 0) return longest() * part;
     if (!way->method) return longest();
@@ -49,46 +43,19 @@ static double length_of(const hard_road *way, double k)
 static void run_all(double k)
 {
     const long_scene scene = scene_of(k);
-    for (int i = 0; i < hard_ways; i++) {
-        const hard_road *way = &hard_way[i];
-        runs[i] = long_follow(ctx, &scene, way, length_of(way, k), fabs(k) == 1 ? &by_exact : NULL, all_seconds);
-        if (all_spins == 0 || runs[i].refused) continue;
-        const double *drift = runs[i].drift;
-        printf("%s %s, k = %g: %g spins, energy %.1e, |n| %.1e, (w,n) %.1e, F %.1e, error %.1e ~ t^%.2f %s\n",
-               iso_backend_name((int)way->backend), way->method ? way->method->name : "", k, runs[i].spins,
-               drift[LONG_ENERGY], drift[LONG_UNITS], drift[LONG_SPIN], drift[LONG_SECOND], runs[i].error,
-               runs[i].growth, runs[i].words);
-        fflush(stdout);
-    }
-}
-
-/* The lengths in words, behind `what` */
-static void add_lengths(char quantity[256], const char *what, double k)
-{
-    const double part = k == -1 ? 1 : 0.1, most = longest();
-    if (k == -1 && all_spins > 0)
-        snprintf(quantity, 256, "%s; %g spins, or as many as there was time for", what, all_spins);
-    else
-        snprintf(quantity, 256,
-                 "%s; spins: exact %g, taylor and blanes_moan6 %g, other splittings %g, rk8pd %g, others %g", what,
-                 most, most * part, most / 10 * part, 1e4 * part, 500 * part);
-}
-
-/* Names of cases are kept by the book. */
-static const char *name_of(const char *what, double k)
-{
-    static char names[40][64];
-    static int used;
-    char *const name = names[used++ % 40];
-    snprintf(name, sizeof names[0], "%s, k = %g", what, k);
-    return name;
+    for (int i = 0; i < hard_ways; i++)
+        runs[i] = long_follow(ctx, &scene, &hard_way[i], length_of(&hard_way[i], k), fabs(k) == 1 ? &by_exact : NULL);
 }
 
 static void begin_case(const char *what, double k, const char *why)
 {
-    char quantity[256];
-    add_lengths(quantity, what, k);
-    hard_case(name_of(what, k), quantity, why);
+    const double part = k == -1 ? 1 : 0.1, most = longest();
+    char name[64], quantity[256];
+    snprintf(name, sizeof name, "%s, k = %g", what, k);
+    snprintf(quantity, sizeof quantity,
+             "%s; spins: exact %g, taylor and blanes_moan6 %g, other splittings %g, rk8pd %g, others %g", what, most,
+             most * part, most / 10 * part, 1e4 * part, 500 * part);
+    hard_case(name, quantity, why);
 }
 
 static void hold_drift(double k, int quantity, const char *what, const char *why)
@@ -151,32 +118,6 @@ static void integrals_hold(double k)
     if (fabs(k) == 1) hold_growth(k);
 }
 
-static void no_integral(void)
-{
-    const long_scene scene = scene_of(0.5);
-    const hard_road way = {ISO_BACKEND_BALL, iso_method_find("taylor"), 1e-12};
-    hard_case("no integral, k = 0.5", "energy beside F of k = 1 and of k = -1, 100 spins",
-              "a drift of what holds must be seen, and what does not hold must drift");
-    iso_orbit *orbit;
-    iso_sample first, s;
-    laws_stop_if(ctx, long_create(ctx, &scene, &way, &orbit) != ISO_OK, "taylor");
-    first = scene_at(ctx, orbit, 0);
-    const char *const names[] = {"h", "F_plane", "F_shell"};
-    for (int j = 0; j < 3; j++) {
-        const iso_integral *integral = laws_integral(&iso_system_ball, names[j]);
-        double size, worst = 0;
-        const double begun = iso_orbit_integral(orbit, &iso_system_ball, integral, &first, &size);
-        for (int i = 1; i <= 200; i++) {
-            s = scene_at(ctx, orbit, i * scene.spin / 2);
-            const double drift = iso_orbit_integral(orbit, &iso_system_ball, integral, &s, &size) - begun;
-            worst = fmax(worst, fabs(drift) / size);
-        }
-        if (j == 0) hard_hold(&way, worst, LONG_ROUNDED);
-        if (j > 0) hard_naive(names[j], worst, 0.01);
-    }
-    iso_orbit_free(orbit);
-}
-
 /* --- the finest phase ------------------------------------------------------------------------------------------- */
 
 /* The ball's state by exact, and how far a start that differs by `off` in omega gets from it. */
@@ -198,41 +139,16 @@ static double sensitivity(const long_scene *scene, double spins, double state[IS
     return worst;
 }
 
-/* Steps of the series with plain projection: n/|n|, omega without its part along n, of the length the energy asks. */
-static double plainly_projected(const long_scene *scene, double spins, const double right[ISO_STATE])
-{
-    enum { PARTS = 2 };
-    const iso_problem f = {.p = scene->p};
-    iso_model model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[]){false, false, false});
-    const double *J = scene->p.J;
-    double y[ISO_STATE];
-    iso_integrator *it;
-    copy(scene->start.y, y, ISO_STATE);
-    model.problem.energy = dot_diag(y, J, y) / 2;
-    laws_stop_if(ctx,
-                 iso_integrator_create(ctx, iso_method_find("taylor"), &model,
-                                       &(iso_method_options){.tolerance = 1e-15, .no_projection = true},
-                                       &it) != ISO_OK,
-                 "taylor");
-    for (long i = 0; i < lrint(spins * PARTS); i++) {
-        iso_integrator_start(it, y);
-        laws_stop_if(ctx, iso_integrator_at(it, scene->spin / PARTS, y) != ISO_OK, "taylor");
-        make_unit(y + 3);
-        remove_along(y, y + 3);
-        scale(y, sqrt(2 * model.problem.energy / dot_diag(y, J, y)));
-    }
-    iso_integrator_free(it);
-    return hard_error(y, right);
-}
-
 /* What the rounding of the start (omega, n or M, gamma: six numbers, and J on the way) makes of the phase. */
 static void finest_phase(double k)
 {
-    enum { SPINS = 100000 }; /* as many as the naive way needs to fail: also at short length */
+    const double spins = tests_length(30000, 100000);
     const long_scene scene = scene_of(k);
     double right[ISO_STATE];
-    const double rounded = 8 * DBL_EPSILON * sensitivity(&scene, SPINS, right);
-    hard_case(name_of("phase", k), "state against exact after 1e5 spins at tolerance 1e-15",
+    char name[64];
+    const double rounded = 8 * DBL_EPSILON * sensitivity(&scene, spins, right);
+    snprintf(name, sizeof name, "phase, k = %g", k);
+    hard_case(name, "state against exact after up to 1e5 spins at tolerance 1e-15",
               "roundings with a bias turn it at every step; F at random makes it t^(3/2)");
     for (int i = 0; i < hard_ways; i++) {
         hard_road way = hard_way[i];
@@ -240,11 +156,10 @@ static void finest_phase(double k)
         iso_orbit *orbit;
         way.tolerance = 1e-15;
         laws_stop_if(ctx, long_create(ctx, &scene, &way, &orbit) != ISO_OK, "taylor");
-        const iso_sample s = scene_at(ctx, orbit, SPINS * scene.spin);
+        const iso_sample s = scene_at(ctx, orbit, spins * scene.spin);
         hard_hold(&hard_way[i], hard_error(s.ball, right), rounded);
         iso_orbit_free(orbit);
     }
-    hard_naive("projected by plain normalisation", plainly_projected(&scene, SPINS, right), rounded);
 }
 
 /* --- the clock -------------------------------------------------------------------------------------------------- */
@@ -295,53 +210,13 @@ static void clocks(void)
     hard_naive("t += h", fabs(sum / (STEPS * h) - 1), 2 * DBL_EPSILON);
 }
 
-/* --- form 5b left alone ----------------------------------------------------------------------------------------- */
-
-/* gamma'' = (2 eps/k) q^(-1-1/k) [(1-k) q gamma - J gamma] */
-static int second_order(double s, const double y[], double dy[], void *model)
+int main(void)
 {
-    const iso_problem *f = &((const iso_model *)model)->problem;
-    const double k = f->p.k, *J = f->p.J, *gamma = y + 3, q = dot_diag(gamma, J, gamma);
-    const double a = 2 * f->eps / k * pow(q, -1 - 1 / k);
-    (void)s;
-    for (int i = 0; i < 3; i++) dy[i] = a * ((1 - k) * q - J[i]) * gamma[i], dy[3 + i] = y[i];
-    return GSL_SUCCESS;
-}
-
-static void unprojected(double k)
-{
-    const hard_road way = {ISO_BACKEND_POINT, iso_method_find("taylor"), 1e-12};
-    const iso_method_options options = {.tolerance = way.tolerance};
-    iso_model model;
-    double start[ISO_STATE], y[ISO_STATE], s = 0;
-    hard_case(name_of("form 5b", k), "|gamma| after 300 radians",
-              "off |gamma| = 1 the equations of second order are unstable");
-    const double end = 300 * sampled(&iso_system_point, k, &model, start);
-    iso_integrator *it = started(way.method, &model, &options, start);
-    hard_hold(&way, iso_integrator_at(it, end, y) == ISO_OK ? fabs(norm(y + 3) - 1) : NAN, LONG_ROUNDED);
-    iso_integrator_free(it);
-    gsl_odeiv2_system system = {second_order, NULL, ISO_STATE, &model};
-    gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-3, 1e-12, 1e-12);
-    gsl_odeiv2_driver_set_nmax(driver, 100000);
-    cross(start + 3, start, y);
-    copy(start + 3, y + 3, 3);
-    const int status = gsl_odeiv2_driver_apply(driver, &s, end, y);
-    hard_naive("unprojected, by rk8pd", status == GSL_SUCCESS ? fabs(norm(y + 3) - 1) : NAN, LONG_ROUNDED);
-    gsl_odeiv2_driver_free(driver);
-}
-
-int main(int argc, char **argv)
-{
-    gsl_set_error_handler_off();
-    all_spins = argc > 1 ? atof(argv[1]) : 0;
-    all_seconds = argc > 2 ? atof(argv[2]) : 0;
     ctx = iso_context_create();
     hard_topic("5. Long time");
     for (int i = 0; i < 3; i++) integrals_hold((const double[]){-1, 1, 0.5}[i]);
-    no_integral();
     for (int k = -1; k <= 1; k += 2) finest_phase(k);
     clocks();
-    for (int i = 0; i < 3; i++) unprojected((const double[]){-1, 0.5, 0.75}[i]);
     iso_context_free(ctx);
     return hard_summary();
 }

@@ -68,17 +68,14 @@ static void run_all(const forced *f, const long_scene *scene)
 {
     for (int i = 0; i < hard_ways; i++) {
         const hard_road *way = &hard_way[i];
-        runs[i] = long_follow(ctx, scene, way, way->method ? length_of(f, way) : 1, NULL, 0);
+        runs[i] = long_follow(ctx, scene, way, way->method ? length_of(f, way) : 1, NULL);
     }
 }
 
 static void begin_case(const char *what, const forced *f, const char *why)
 {
-    static char names[8 * SCENES][96];
-    static int used;
-    char quantity[256];
-    char *const name = names[used++ % (8 * SCENES)];
-    snprintf(name, sizeof names[0], "%s: %s", f->name, what);
+    char name[128], quantity[256];
+    snprintf(name, sizeof name, "%s: %s", f->name, what);
     snprintf(quantity, sizeof quantity, "%s; %g spins: taylor, splittings (strang 1e4); %g: others", what, f->fast,
              f->others);
     hard_case(name, quantity, why);

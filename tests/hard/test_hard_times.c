@@ -124,81 +124,6 @@ static int differing(const iso_sample *a, const iso_sample *b)
 
 /* Sorted away from the start, after it and then before it; with the end of a step, and what is one ulp beside it. */
 enum { MANY = 40 };
-static int list_times(iso_orbit *orbit, double time[MANY])
-{
-    static const double usual[] = {0, 1e-300, 1e-3, 0.5, 1, 1, 2.5, 2.5000000000000004, 3, 4, 4.5, 5, 5};
-    int count = 0;
-    for (size_t i = 0; i < sizeof usual / sizeof *usual; i++) time[count++] = usual[i];
-    ask(orbit, 5.5);
-    const double end = iso_orbit_reached(orbit); /* of the step there; of a closed solution: of the time itself */
-    for (int i = -1; i <= 1; i++) time[count++] = i == 0 ? end : nextafter(end, i < 0 ? 0 : 10);
-    const int after = count;
-    for (int i = 0; i < after; i++) time[count++] = -time[i];
-    return count;
-}
-
-/* Backwards, in blocks that run backwards, and shuffled by steps that meet every place once. */
-static int place_in(int order, int i, int count)
-{
-    enum { BLOCK = 5, STEP = 7 };
-    if (order == 0) return count - 1 - i;
-    if (order == 1) return i / BLOCK * BLOCK + (i / BLOCK < count / BLOCK ? BLOCK - 1 - i % BLOCK : i % BLOCK);
-    return i * STEP % count;
-}
-
-static void check_order(iso_clock clock)
-{
-    for (int w = 0; w < hard_ways; w++) {
-        double time[MANY];
-        iso_sample sorted[MANY];
-        iso_orbit *orbit = open_orbit(&hard_way[w], false, clock);
-        const int count = list_times(orbit, time);
-        iso_orbit_free(orbit);
-        orbit = open_orbit(&hard_way[w], false, clock);
-        for (int i = 0; i < count; i++) sorted[i] = ask(orbit, time[i]);
-        iso_orbit_free(orbit);
-        int different = isnan(sorted[count - 1].ball[0]);
-        for (int order = 0; order < 3; order++) {
-            orbit = open_orbit(&hard_way[w], false, clock);
-            for (int i = 0; i < count; i++) {
-                const int place = place_in(order, i, count);
-                const iso_sample s = ask(orbit, time[place]);
-                different += differing(&s, &sorted[place]);
-            }
-            iso_orbit_free(orbit);
-        }
-        hard_hold(&hard_way[w], different, 0);
-    }
-}
-
-/* What steps that end at each output time make of it. */
-static double from_time_to_time(void)
-{
-    const hard_road way = {ISO_BACKEND_BALL, iso_method_find("rk8pd"), 1e-12};
-    iso_orbit *orbit = open_orbit(&way, false, ISO_CLOCK_T);
-    const iso_sample half = ask(orbit, 2.5), whole = ask(orbit, 5);
-    const iso_start usual = start;
-    iso_orbit_free(orbit);
-    memcpy(start.y, half.ball, sizeof start.y);
-    orbit = open_orbit(&way, false, ISO_CLOCK_T);
-    const iso_sample second = ask(orbit, 2.5);
-    iso_orbit_free(orbit);
-    start = usual;
-    return differing(&second, &whole);
-}
-
-static void check_orders(void)
-{
-    const char *why = "steps that begin and end at output times depend on all of them";
-    hard_case("t in any order", "numbers that differ in a bit from the sorted ones: repeated, backwards, shuffled",
-              why);
-    check_order(ISO_CLOCK_T);
-    hard_naive("a step to each time", from_time_to_time(), 0);
-    hard_case("s in any order", "the same in the point's clock", why);
-    check_order(ISO_CLOCK_S);
-    hard_naive("a step to each time", from_time_to_time(), 0);
-}
-
 /* --- ends of steps ---------------------------------------------------------------------------------------------- */
 
 /* The state at the end of a step is the method's, beside it what dense output or a polynomial says from the step's
@@ -326,7 +251,6 @@ int main(void)
     hard_topic("7. Times");
     check_near();
     check_far();
-    check_orders();
     check_ends();
     check_clocks();
     check_grid();

@@ -1,5 +1,5 @@
 /* Turning points off the zero level, where M and omega are 0, and coordinate planes and umbilics, where sphero-
- * conical coordinates meet: orbits start there and pass there. */
+ * conical coordinates meet: orbits start there and pass there. (The coordinates: model/conical, exact/coordinates.) */
 #include "exact_orbits.h"
 #include "hard_loss.h"
 #include "orbit/orbit_impl.h"
@@ -218,7 +218,7 @@ static void check_through(void)
     hard_hold(NULL, there_and_back, 1e-13);
 }
 
-/* --- coordinates ------------------------------------------------------------------------------------------------ */
+/* --- an umbilic -------------------------------------------------------------------------------------------------- */
 
 /* On its way through an umbilic, s later: the state from which it comes there. */
 static problem through_umbilic(double k, double s, const double M[3])
@@ -253,83 +253,6 @@ static void check_umbilic(void)
     hold_all(b, 3);
 }
 
-/* z1, z2 as roots of a quadratic, and x from them by (13): largest error of a component's size */
-static double naive_round_trip(const double J[3], const double x[3])
-{
-    double square[3], worst = 0;
-    hard_naive_squares(J, x, square);
-    for (int i = 0; i < 3; i++) worst = fmax(worst, fabs(sqrt(fmax(0, square[i])) - fabs(x[i])));
-    return worst;
-}
-
-/* The distance between angles on the torus of (phi, psi), where (pi - phi, pi - psi) is the same place. */
-static double apart(const iso_conical *a, const iso_conical *b)
-{
-    double same = 0, other = 0;
-    for (int r = 0; r < 2; r++) {
-        same += pow(a->sine[r] - b->sine[r], 2) + pow(a->cosine[r] - b->cosine[r], 2);
-        other += pow(a->sine[r] - b->sine[r], 2) + pow(a->cosine[r] + b->cosine[r], 2);
-    }
-    return sqrt(fmin(same, other));
-}
-
-/* Along orbits in 4000 steps, through all planes and by umbilics: the way back, the constant, and how far the angles
- * jump in a step beyond what speed/length says. */
-static void check_coordinates(void)
-{
-    enum { STEPS = 4000 };
-    const hard_road exact = {ISO_BACKEND_EXACT, NULL, 1e-12};
-    double back = 0, constant = 0, jump = 0, naive = 0;
-    int crossed[3] = {0};
-    for (int o = 0; o < 3; o++) {
-        const double ds = 0.005, M[3] = {0.5, 1.0, -0.2};
-        const problem b = o < 2 ? through_umbilic(o ? 1 : -1, ds * STEPS / 4, M)
-                                : make(-1, J_three, no_M, gamma_any, ISO_CLOCK_S, 3, false);
-        double of_start = NAN, before[3] = {0};
-        iso_conical last = {.length = {1, 1}};
-        iso_orbit *path;
-        iso_orbit_options options = iso_orbit_defaults(&b.start);
-        options.backend = exact.backend, options.shown = ISO_SHOW_POINT;
-        if (iso_orbit_create(ctx, &b.p, &b.start, &options, &path) != ISO_OK) {
-            gsl_test(1, "no closed solution: %s", iso_context_message(ctx));
-            return;
-        }
-        iso_problem of_path = iso_orbit_model(path)->problem; /* in own units */
-        const double unit = iso_unit(iso_orbit_units(path), iso_system_point.fast_dimension);
-        for (int i = 0; i <= STEPS; i++) {
-            iso_sample s;
-            iso_conical at;
-            double y[ISO_STATE], z[ISO_STATE], excess[3];
-            if (iso_orbit_at(path, ds * i, &s) != ISO_OK) gsl_test(1, "%s", iso_context_message(ctx));
-            copy(s.point, y, ISO_STATE);
-            scale(y, 1 / unit);
-            iso_separation_coordinates(&of_path.p, y, &at);
-            iso_separation_point(&of_path.p, &at, z);
-            back = hard_worse(laws_distance(z + 3, y + 3) + laws_distance(z, y) / (norm(y) + DBL_MIN), back);
-            naive = fmax(naive, naive_round_trip(of_path.p.k == 1 ? of_path.p.inv_J : of_path.p.J, y + 3));
-            const double c = iso_separation_constant(&of_path, &at, excess);
-            if (i == 0) of_start = c;
-            constant = hard_worse(fabs(c / of_start - 1), constant);
-            double may = 0; /* an angle moves at speed/length, the length at either end of the step */
-            for (int r = 0; r < 2; r++) may += 2 * norm(y) * unit * ds / fmin(at.length[r], last.length[r]);
-            if (i > 0) jump = hard_worse(apart(&at, &last) / may, jump);
-            for (int j = 0; j < 3; j++) crossed[j] += before[j] * y[3 + j] < 0;
-            copy(y + 3, before, 3);
-            last = at;
-        }
-        iso_orbit_free(path);
-    }
-    hard_case("conical coordinates along orbits",
-              "there and back; then the constant c; then a step of the angles over "
-              "speed/length",
-              "a coordinate is double valued at each plane, and both are at the umbilics");
-    hard_hold(NULL, back, 24 * DBL_EPSILON);
-    hard_hold(NULL, constant, 1e-13); /* what rounding M and gamma, some units, does to c */
-    hard_hold(NULL, jump, 1);
-    hard_hold(NULL, crossed[0] > 0 && crossed[1] > 0 && crossed[2] > 0 ? 0 : 1, 0);
-    hard_naive("z1, z2 as roots, x by (13)", naive, 1e-10);
-}
-
 int main(void)
 {
     hard_topic("4. Turning points and coordinates");
@@ -340,7 +263,6 @@ int main(void)
     check_equilibria();
     check_through();
     check_umbilic();
-    check_coordinates();
     iso_context_free(ctx);
     return hard_summary();
 }

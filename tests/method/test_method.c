@@ -64,17 +64,7 @@ static void solve(const orbit *o, const iso_method *m, double t, double y[])
     orbit_solve(o, m, &options, t, y);
 }
 
-/* --- the state at a time ---------------------------------------------------------------------------------------- */
-
-static void agreement(const orbit *o, const iso_method *m, laws_worst *worst)
-{
-    for (int sign = -1; sign <= 1; sign += 2) {
-        double y[ISO_MAX_STATE], reference[ISO_MAX_STATE];
-        solve(o, m, sign * TURN * o->unit, y);
-        orbit_reference(o, sign * TURN * o->unit, reference);
-        note(worst, o, m, orbit_error(o, y, reference), allowed(m));
-    }
-}
+/* --- the same again ---------------------------------------------------------------------------------------------- */
 
 /* (w, n, t) -> (-w, n, -t) maps every orbit to one, and every step of a method to a step, bit by bit. */
 static void reversal(const orbit *o, const iso_method *m, laws_worst *worst)
@@ -220,33 +210,9 @@ static void rest(const orbit *moving, const iso_method *m, laws_worst *worst)
     iso_integrator_free(it);
 }
 
-/* 159 turns in a principal plane, known exactly. */
-static void long_rotation(const char *method, const iso_method_options *options, double bound)
-{
-    const double t = 1000;
-    const orbit o = orbit_rotation(ctx, 1, 1);
-    const double exact[ISO_STATE] = {0, 0, 1, cos(t), -sin(t), 0};
-    double y[ISO_MAX_STATE];
-    orbit_solve(&o, iso_method_find(method), options, t, y);
-    const double error = orbit_error(&o, y, exact);
-    gsl_test(!(error <= bound), "%s, 159 turns, tolerance %g, step %g: error %.2g, allowed %.2g", method,
-             options->tolerance, options->fixed_step, error, bound);
-}
-
-/* A million additions t += h would be wrong by 1e-9. */
-static void clock_is_compensated(void)
-{
-    long_rotation("rk8pd", &(iso_method_options){.tolerance = 1e-13}, 1e-11);
-    long_rotation("adams", &(iso_method_options){.tolerance = 1e-13}, 1e-9);
-    long_rotation("adams", &(iso_method_options){.tolerance = 1e-15}, 1e-11);
-    long_rotation("rk8pd", &(iso_method_options){.fixed_step = 1e-3}, 1e-12);
-    long_rotation("fehlberg_13_7_8", &(iso_method_options){.fixed_step = 1e-2}, 1e-12);
-}
-
 int main(void)
 {
     ctx = iso_context_create();
-    hold("forwards and backwards as the reference", agreement);
     hold("mirrored in time, bit for bit", reversal);
     hold("starting again", starting_again);
     hold("statistics and the last step", statistics);
@@ -254,7 +220,6 @@ int main(void)
     hold("without projection they drift", no_projection);
     hold("carried clocks against quadrature", carried_clocks);
     hold("rest", rest);
-    clock_is_compensated();
     iso_context_free(ctx);
     exit(gsl_test_summary());
 }

@@ -1,11 +1,11 @@
 /* The return map in numbers of 64 and of 113 bits, lib/method/taylor/return_map_impl.h: against the lanes of doubles,
- * against Hill's traces, and by its laws: determinant, reversor, two halves. */
+ * and by its laws: determinant, reversor, two halves. */
 #include "base/math_impl.h"
+#include "crossed.h"
 #include "map/section_impl.h"
 #include "method/methods_impl.h"
 #include "method/taylor/lanes_impl.h"
 #include "method/taylor/return_map_impl.h"
-#include "orbit/crossings.h"
 #include "orbit/crossings_impl.h"
 #include "reference.h"
 
@@ -76,14 +76,8 @@ static void image(double l, double x, iso_crossing *c)
     iso_section_point(iso_free_point(&problem.p, 1), axis, l, x, start.y);
     const iso_batch_orbit orbit = {&problem.p, &start, NULL};
     iso_crossings_options o = iso_crossings_defaults();
-    iso_crossings *crossings;
-    iso_status status;
-    size_t done;
     o.deviations = true;
-    if (iso_crossings_create(ctx, &orbit, 1, &o, &crossings) != ISO_OK ||
-        iso_crossings_go(crossings, NULL, 1, c, NULL, &done, &status) != ISO_OK)
-        gsl_test(1, "crossings: %s", iso_context_message(ctx));
-    iso_crossings_free(crossings);
+    crossed(ctx, &orbit, &o, 1, c, NULL);
 }
 
 /* Bound: the tolerance 1e-12 of the lanes, carried on by the derivative. */
@@ -95,27 +89,6 @@ static void check_against_doubles(double l, double x, double *worst)
     double most = fmax(fabs(remainder(c.l - r.to[0].head, 2 * ISO_PI)), fabs(c.x - r.to[1].head));
     for (int i = 0; i < 4; i++) most = fmax(most, fabs(c.slope[i / 2][i % 2] - r.slope[i / 2][i % 2].head));
     *worst = fmax(*worst, most / size_of(&r) / 1e-9);
-}
-
-/* Half-turn traces of Hill's equation, by another program, to 9 digits: J = (1.4, 2.1, 3), axis 2. A full turn has
- * T^2 - 2. */
-static void test_traces(void)
-{
-    static const double table[][2] = {{-2, -2.08844277},  {-1, -2.35263343}, {-0.5, -3.42625824},
-                                      {0.5, -3.56858865}, {1, -2.36990950},  {2, -2.09058642}};
-    double worst = 0;
-    for (int i = 0; i < 6; i++) {
-        prepare(table[i][0], Js[0]);
-        const iso_fine at[2] = {{axis == 2 ? 0 : ISO_PI / 2, axis == 2 ? 0 : 6.123233995736766e-17}, {0, 0}};
-        for (int c = 0; c < CODES; c++) {
-            const iso_return half = go(codes[c], true, at), whole = go(codes[c], false, at);
-            const double T = table[i][1], t = half.slope[0][0].head + half.slope[1][1].head,
-                         full = whole.slope[0][0].head + whole.slope[1][1].head;
-            worst = fmax(worst, fmax(fabs(fabs(t) + T), fabs(full - t * t + 2)));
-            worst = fmax(worst, fmax(fabs(half.to[1].head), fabs(apart(half.to[0], at[0]))));
-        }
-    }
-    gsl_test(!(worst < 1e-8), "traces of the rotation about axis 2: at most %.1e from Hill's equation", worst);
 }
 
 /* --- laws ------------------------------------------------------------------------------------------------------- */
@@ -221,7 +194,6 @@ int main(void)
 {
     ctx = iso_context_create();
     test_levels();
-    test_traces();
     test_laws();
     iso_context_free(ctx);
     return gsl_test_summary();

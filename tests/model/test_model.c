@@ -78,18 +78,6 @@ static void bare_divergence(const laws_case *c, laws_worst *worst)
     laws_note(worst, fabs(divergence) / norm(c->y), 0.01, &c->problem.p, "");
 }
 
-/* (w, n, t) -> (-w, n, -t) maps orbits to orbits, for both systems and bit for bit. */
-static void reversal(const laws_case *c, laws_worst *worst)
-{
-    double f[ISO_STATE], back[ISO_STATE], y[ISO_STATE];
-    copy(c->y, y, ISO_STATE);
-    scale(y, -1);
-    c->system->rhs(&c->problem, c->y, f);
-    c->system->rhs(&c->problem, y, back);
-    for (int i = 0; i < ISO_STATE; i++)
-        laws_note(worst, fabs(back[i] - (i < 3 ? f[i] : -f[i])), DBL_MIN, &c->problem.p, "");
-}
-
 /* Theory, section 9: in the principal plane n_axis = 0 a ball that spins about the axis keeps its w, and n turns at
  * k |w|. The point's M keeps its axis too, and gamma turns in the same plane. */
 static void principal_plane(const laws_case *c, laws_worst *worst)
@@ -146,7 +134,6 @@ int main(void)
     laws_hold("flow tangent to the constraints", NULL, constraints_tangent);
     laws_hold("invariant measure (10)", NULL, invariant_measure);
     laws_fail("divergence without the density", &iso_system_ball, bare_divergence);
-    laws_hold("reversal", NULL, reversal);
     laws_hold("rotation in a principal plane", NULL, principal_plane);
     laws_hold("equal moments", NULL, equal_moments);
     laws_hold("component sizes", NULL, component_size);

@@ -18,22 +18,20 @@ static void surfaces_give_k(void)
     static const struct {
         iso_surface surface;
         double A, B, k;
-    } row[] = {
-        {ISO_PLANE, 0, 0.25, 1},
-        {ISO_PLANE, NAN, 3, 1},
-        {ISO_OUTSIDE, 2, 2, 0.5},
-        {ISO_OUTSIDE, 3, 1, 0.75},
-        {ISO_OUTSIDE, 1, 19, 0.05},
-        {ISO_INSIDE, 3, 1, 1.5},
-        {ISO_INSIDE, 4, 3, 4},
-        {ISO_INSIDE, 50, 49, 50},
-        {ISO_SHELL, 1, 2, -1},
-        {ISO_SHELL, 2, 7, -0.4},
-        {ISO_SHELL, 2, 3, -2},
-        {ISO_SHELL, 1, 21, -0.05},
-        {ISO_OUTSIDE, 1e-3, 1, 1 / 1001.0},
-        {ISO_INSIDE, 1, DBL_EPSILON, 1 + DBL_EPSILON},
-    };
+    } row[] = {{ISO_PLANE, 0, 0.25, 1},
+               {ISO_PLANE, NAN, 3, 1},
+               {ISO_OUTSIDE, 2, 2, 0.5},
+               {ISO_OUTSIDE, 3, 1, 0.75},
+               {ISO_OUTSIDE, 1, 19, 0.05},
+               {ISO_INSIDE, 3, 1, 1.5},
+               {ISO_INSIDE, 4, 3, 4},
+               {ISO_INSIDE, 50, 49, 50},
+               {ISO_SHELL, 1, 2, -1},
+               {ISO_SHELL, 2, 7, -0.4},
+               {ISO_SHELL, 2, 3, -2},
+               {ISO_SHELL, 1, 21, -0.05},
+               {ISO_OUTSIDE, 1e-3, 1, 1 / 1001.0},
+               {ISO_INSIDE, 1, DBL_EPSILON, 1 + DBL_EPSILON}};
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         iso_params p;
         const iso_body b = on(row[i].surface, row[i].A, row[i].B);

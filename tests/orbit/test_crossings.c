@@ -1,8 +1,8 @@
 /* Crossings of orbits one by one, lib/orbit/crossings.h: reference/section.csv, parts, limits, refusals. */
 #include "base/math_impl.h"
+#include "crossed.h"
 #include "map/section_impl.h"
 #include "numbers.h"
-#include "orbit/crossings.h"
 #include "orbit/crossings_impl.h"
 #include "reference.h"
 
@@ -59,18 +59,13 @@ static void note_row(const section_row *r, iso_backend backend, laws_worst *char
     iso_crossings_options o = iso_crossings_defaults();
     o.backend = backend;
     iso_crossing at[MOST_CROSSINGS];
-    size_t done;
-    iso_status status;
-    iso_crossings *c = follow(&orbit, 1, &o);
     gsl_test_int(iso_section_axis(iso_free_point(&r->p, 1)), r->axis, "%s: its global axis", r->name);
-    gsl_test_int((int)iso_crossings_go(c, NULL, (size_t)r->crossing, at, NULL, &done, &status), ISO_OK, "%s: %s",
-                 r->name, iso_context_message(ctx));
+    if (!crossed(ctx, &orbit, &o, (size_t)r->crossing, at, NULL)) return;
     const iso_crossing *last = &at[r->crossing - 1];
     laws_note(chart, fabs(remainder(last->l - r->l, 2 * ISO_PI)), 1e-11, &r->p, r->name);
     laws_note(chart, fabs(last->x - r->x), 1e-11, &r->p, r->name);
     laws_note(clocks, fabs(last->clock[ISO_CLOCK_T] / r->t - 1), 1e-11, &r->p, r->name);
     laws_note(clocks, fabs(last->clock[ISO_CLOCK_S] / r->s - 1), 1e-11, &r->p, r->name);
-    iso_crossings_free(c);
 }
 
 static void check_reference(void)
@@ -159,16 +154,12 @@ static void check_start_on_section(void)
             const iso_batch_orbit orbit = {&p, &start, NULL};
             iso_crossings_options o = iso_crossings_defaults();
             iso_crossing crossing;
-            size_t done;
-            iso_status status;
             o.backend = backend;
             iso_section_point(iso_free_point(&p, 1), 2, 0.7, 0.2, start.y);
             start.y[5] = (side - 1) * 3e-10;
             start.eps = NAN;
-            iso_crossings *c = follow(&orbit, 1, &o);
-            iso_crossings_go(c, NULL, 1, &crossing, NULL, &done, &status);
+            crossed(ctx, &orbit, &o, 1, &crossing, NULL);
             first[backend][side] = crossing.clock[ISO_CLOCK_S];
-            iso_crossings_free(c);
         }
     for (int i = 1; i < 6; i++)
         gsl_test_rel(first[i % 2][i / 2], first[0][0], 1e-8, "a start on the section is no crossing (%d)", i);
@@ -184,18 +175,13 @@ static void check_falling_start(void)
         const iso_batch_orbit orbit = {&p, &start, NULL};
         iso_crossings_options o = iso_crossings_defaults();
         iso_crossing at[2];
-        size_t done;
-        iso_status status;
         double W[2];
         o.backend = i % 2 ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
         iso_section_point(iso_free_point(&p, 1), axis, 0.7, 0.2, start.y);
         scale(start.y, -1);
         iso_section_bounds(iso_free_point(&p, 1), axis, W);
-        iso_crossings *c = follow(&orbit, 1, &o);
-        gsl_test_int((int)iso_crossings_go(c, NULL, 2, at, NULL, &done, &status), ISO_OK, "a falling start %d: %s", i,
-                     iso_context_message(ctx));
+        crossed(ctx, &orbit, &o, 2, at, NULL);
         gsl_test_rel(at[0].clock[ISO_CLOCK_S] * (W[0] + W[1]) / 2, ISO_PI, 0.06, "half an oscillation %d", i);
-        iso_crossings_free(c);
     }
 }
 
@@ -211,12 +197,7 @@ static void check_units(void)
         const double J = u ? 1e-40 : 1;
         p[u] = laws_params(-0.7, (const double[]){1.4 * J, 2.1 * J, 3.0 * J});
         const iso_batch_orbit orbit = {&p[u], u ? &fast : &start, NULL};
-        size_t done;
-        iso_status status;
-        iso_crossings *c = follow(&orbit, 1, NULL);
-        iso_crossings_go(c, NULL, 3, at[u], NULL, &done, &status);
-        gsl_test_int((int)done, 3, "crossings in units %d: %s", u, iso_context_message(ctx));
-        iso_crossings_free(c);
+        crossed(ctx, &orbit, NULL, 3, at[u], NULL);
     }
     gsl_test_abs(at[0][2].l - at[1][2].l, 0, 1e-10, "l in other units");
     gsl_test_abs(at[0][2].x - at[1][2].x, 0, 1e-10, "x in other units");
@@ -232,15 +213,11 @@ static void check_column_and_clock(void)
     iso_crossings_options o = iso_crossings_defaults();
     iso_crossing at[4];
     iso_sample sample[4], later;
-    size_t done;
-    iso_status status;
     o.kind = ISO_SECTION_COLUMN;
     o.column = iso_column_find("gamma1");
     o.value = 0.25;
     o.shown = ISO_SHOW_BOTH;
-    iso_crossings *c = follow(&orbit, 1, &o);
-    iso_crossings_go(c, NULL, 4, at, sample, &done, &status);
-    iso_crossings_free(c);
+    crossed(ctx, &orbit, &o, 4, at, sample);
     iso_orbit_options how = iso_orbit_defaults(&start);
     iso_orbit *path;
     how.shown = ISO_SHOW_BOTH;
@@ -254,10 +231,8 @@ static void check_column_and_clock(void)
     iso_orbit_free(path);
     o.kind = ISO_SECTION_CLOCK;
     o.clock = ISO_CLOCK_S;
-    c = follow(&orbit, 1, &o);
-    iso_crossings_go(c, NULL, 4, at, sample, &done, &status);
+    crossed(ctx, &orbit, &o, 4, at, sample);
     for (int i = 0; i < 4; i++) gsl_test_rel(at[i].clock[ISO_CLOCK_S], 0.25 * (i + 1), 1e-15, "steps of s");
-    iso_crossings_free(c);
 }
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */

@@ -2,9 +2,9 @@
  * dL dl, that Sturm's bounds hold, that the reversors S1, S2, S3 turn orbits back in the same time, and that rows keep
  * their energy. */
 #include "base/math_impl.h"
+#include "crossed.h"
 #include "map/section_impl.h"
 #include "map/state.h"
-#include "orbit/crossings.h"
 #include "reference.h"
 
 static iso_context *ctx;
@@ -28,19 +28,9 @@ static motion motion_at(const iso_params *p, double energy, const double point[I
     return m;
 }
 
-/* The next `count` crossings. False: it has failed. */
-static bool follow(const motion *m, iso_crossings_options o, size_t count, iso_crossing at[], iso_sample sample[],
-                   const char *what)
+static bool follow(const motion *m, iso_crossings_options o, size_t count, iso_crossing at[], iso_sample sample[])
 {
-    const iso_batch_orbit orbit = {&m->p, &m->start, &m->effects};
-    iso_crossings *c;
-    size_t done = 0;
-    iso_status status = ISO_OK;
-    const bool good = iso_crossings_create(ctx, &orbit, 1, &o, &c) == ISO_OK &&
-                      iso_crossings_go(c, NULL, count, at, sample, &done, &status) == ISO_OK;
-    gsl_test(!good, "%s: %s", what, good ? "crossings" : iso_context_message(ctx));
-    iso_crossings_free(c);
-    return good;
+    return crossed(ctx, &(iso_batch_orbit){&m->p, &m->start, &m->effects}, &o, count, at, sample);
 }
 
 /* --- the reference ---------------------------------------------------------------------------------------------- */
@@ -68,7 +58,7 @@ static void reference_row(const char *name, const double v[NUMBERS], iso_backend
     o.deviations = true;
     const size_t count = (size_t)v[CROSSING];
     gsl_test_int(iso_section_axis(iso_free_point(&p, 1)), o.axis, "%s: its global axis", name);
-    if (!follow(&m, o, count, at, NULL, name)) return;
+    if (!follow(&m, o, count, at, NULL)) return;
     const iso_crossing *last = &at[count - 1];
     const double growth = exp(fmax(0, fmax(last->growth[0], last->growth[1])));
     copy(v + M_1, there, 3);
@@ -153,7 +143,7 @@ static void turn_back(iso_point_motion m, int axis, const double z[2], const iso
         o.axis = axis;
         iso_section_point(m, axis, l, x, point);
         const motion back = motion_at(m.p, m.energy, point, ISO_POINT);
-        if (!follow(&back, o, 1, &home, NULL, what)) return;
+        if (!follow(&back, o, 1, &home, NULL)) return;
         const double off = fmax(fabs(remainder(home.l - l0, 2 * ISO_PI)), fabs(home.x - x0));
         laws_note(worst, off, 1e-10 * grown * grown, m.p, what);
         const double time = home.clock[ISO_CLOCK_S] / there->clock[ISO_CLOCK_S] - 1;
@@ -186,7 +176,7 @@ static void check_laws(void)
             o.deviations = true;
             o.shown = ISO_SHOW_BOTH;
             const motion orbit = motion_at(&p, m.energy, point, i % 3 ? ISO_POINT : ISO_BALL);
-            if (!follow(&orbit, o, 1, &at[backend], &sample, what)) continue;
+            if (!follow(&orbit, o, 1, &at[backend], &sample)) continue;
             hold(m, axis, l, &at[backend], &sample, what, worst);
             turn_back(m, axis, (double[2]){l, x}, &at[backend], backend, what, &back);
         }

@@ -1,4 +1,4 @@
-/* Balls under forces: energy along the orbit, and motion run backwards; Neumann's problem as a free ball's. */
+/* Balls under forces: the energy that is lost, and motion run backwards; Neumann's problem as a free ball's. */
 #include "orbit/orbit_impl.h"
 #include "scenes.h"
 
@@ -6,31 +6,7 @@ static iso_context *ctx;
 
 /* --- energy ----------------------------------------------------------------------------------------------------- */
 
-static laws_worst projected, unprojected, lost, lost_with_twist;
-
-/* Over t = 100; by a method that restores the energy, and by one that does not. */
-static void check_energy(const rolling *ball, const char *method, bool field, iso_random *random, laws_worst *worst)
-{
-    iso_effects e = {0};
-    const iso_start start = scene_start(ball, random);
-    iso_orbit_options o = iso_orbit_defaults(&start);
-    double up[3];
-    iso_random_direction(random, up);
-    add_gravity(ball, 0.5, up, &e);
-    add_attitude(random, &e);
-    if (field) add_field(&e);
-    o.tolerance = 1e-14;
-    o.method = iso_method_find(method);
-    iso_orbit *orbit = scene_orbit(ctx, ball, &start, &e, &o);
-    const iso_sample begin = scene_at(ctx, orbit, 0);
-    const double h0 = energy_of(ball, &e, &begin);
-    for (int t = -100; t <= 100; t += 10) {
-        const iso_sample s = scene_at(ctx, orbit, t);
-        const double kinetic = dot_diag(omega_of(&s), ball->p.J, omega_of(&s)) / 2;
-        laws_note(worst, fabs(energy_of(ball, &e, &s) - h0), 1e-11 * (kinetic + fabs(h0)), &ball->p, ball->name);
-    }
-    iso_orbit_free(orbit);
-}
+static laws_worst lost, lost_with_twist;
 
 static iso_effects acting; /* on the orbit whose energy is differenced */
 
@@ -68,15 +44,9 @@ static void check_energies(iso_random *random)
 {
     for (int which = 0; which < ROLLINGS; which++) {
         const rolling ball = rolling_ball(ctx, which);
-        for (int field = 0; field < 2; field++) {
-            check_energy(&ball, "rk8pd", field, random, &projected);
-            check_energy(&ball, "adams", field, random, &unprojected);
-        }
         check_resistance(&ball, 0, random, &lost);
         check_resistance(&ball, 0.6, random, &lost_with_twist);
     }
-    laws_report(&projected, "weight and field: the energy is conserved (rk8pd)");
-    laws_report(&unprojected, "weight and field: the energy is conserved (adams)");
     laws_report(&lost, "rolling resistance: dh/dt = -c_r (w,w)");
     laws_report(&lost_with_twist, "and with twist: dh/dt = -c_r (w,w) - c (w,n)^2");
 }

@@ -1,5 +1,5 @@
 /* A point at any energy H and its ball: off the level H = 0 the ball lives in the potential of the effect `level`,
- * U = -c g^(-1/k), c = H k^2/det J, g = (n, J^-1 n). Newton's law by differences of the orbit's samples. */
+ * U = -c g^(-1/k), c = H k^2/det J, g = (n, J^-1 n). That this is its law of motion: model/level, effects. */
 #include "orbit/orbit_impl.h"
 #include "scenes.h"
 
@@ -25,11 +25,6 @@ typedef struct off_level {
     iso_sample truth[TIMES]; /* by backend point, in its own clock */
     double w, M;             /* largest |omega| and |M| of these   */
 } off_level;
-
-static double power_of_g(const iso_params *p, const double n[3], double exponent)
-{
-    return pow(dot_diag(n, p->inv_J, n), exponent);
-}
 
 /* A point in a potential of about one energy, with `part` of it as kinetic energy: 1 is the level H = 0. */
 static off_level make(double k, double eps, double part, iso_random *random)
@@ -57,7 +52,7 @@ static off_level make(double k, double eps, double part, iso_random *random)
 
 /* --- what holds ------------------------------------------------------------------------------------------------- */
 
-static laws_worst levels, backends, newton, turning, clocks, energies;
+static laws_worst levels, backends;
 
 static double allowed(const iso_params *p)
 {
@@ -104,59 +99,6 @@ static void check_backends(const off_level *o)
         }
 }
 
-/* What an 8-point difference makes of the samples around a time t: w', n' and ds/dt. */
-typedef struct slopes {
-    iso_sample here;
-    double w[3], n[3], s;
-} slopes;
-
-static slopes slopes_at(iso_orbit *orbit, double t, double h)
-{
-    static const double weight[4] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
-    slopes d = {.here = scene_at(ctx, orbit, t)};
-    for (int i = 0; i < 4; i++)
-        for (int side = -1; side <= 1; side += 2) {
-            const iso_sample s = scene_at(ctx, orbit, t + side * (i + 1) * h);
-            const double factor = side * weight[i] / h;
-            add_scaled(d.w, factor, s.ball);
-            add_scaled(d.n, factor, s.ball + 3);
-            d.s += factor * s.clock[ISO_CLOCK_S];
-        }
-    return d;
-}
-
-/* J w' - J w x w - MQ is along n, MQ = k n x dU/dn; n' = k n x w; ds/dt = (k^2/det J) q^(1 + 1/(2k)). */
-static void check_newton(const off_level *o)
-{
-    const iso_params *p = &o->p;
-    const double k = p->k, h = 4e-3 / (fmax(1, fabs(k)) * o->w);
-    iso_orbit *orbit = scene_whole(ctx, p, &o->start, ISO_BACKEND_POINT, ISO_CLOCK_T);
-    for (int i = 0; i < TIMES; i++) {
-        const slopes d = slopes_at(orbit, o->truth[i].clock[ISO_CLOCK_T], h);
-        const double *w = d.here.ball, *n = d.here.ball + 3;
-        double Jw[3], gyration[3], u[3], torque[3], rest[3], n_w[3], turn[3];
-        diag(p->J, w, Jw);
-        cross(Jw, w, gyration);
-        diag(p->inv_J, n, u);
-        cross(n, u, torque);
-        scale(torque, 2 * o->c * power_of_g(p, n, -1 / k - 1));
-        diag(p->J, d.w, rest);
-        add_scaled(rest, -1, gyration);
-        add_scaled(rest, -1, torque);
-        remove_along(rest, n);
-        const double size = max3(p->J) * o->w * o->w * fmax(1, fabs(k));
-        laws_note(&newton, norm(rest) / size, 1e-11, p, "J w'");
-        cross(n, w, n_w);
-        for (int j = 0; j < 3; j++) turn[j] = d.n[j] - k * n_w[j];
-        laws_note(&turning, norm(turn) / (fmax(1, fabs(k)) * o->w), 1e-11, p, "n'");
-        const double rate = k * k / p->det_J * power_of_g(p, n, -1 - 1 / (2 * k));
-        laws_note(&clocks, fabs(d.s / rate - 1), 1e-11, p, "ds/dt");
-        const double kinetic = dot_diag(w, p->J, w) / 2, U = -o->c * power_of_g(p, n, -1 / k);
-        laws_note(&energies, fabs(kinetic + U - o->eps * k * k / p->det_J), allowed(p) * (kinetic + fabs(U)), p, "h");
-    }
-    iso_orbit_free(orbit);
-}
-
 static void check_all(void)
 {
     static const double ks[] = {1, -1, 0.5, 0.75, -0.4, 4, 0.2}, eps[] = {1, 1, -1, 0}, part[] = {0.2, 3, 0.5, 1};
@@ -166,15 +108,10 @@ static void check_all(void)
             const off_level o = make(ks[i], eps[j], part[j], random);
             check_added(&o);
             check_backends(&o);
-            check_newton(&o);
         }
     iso_random_free(random);
     laws_report(&levels, "off the level H = 0: c = H k^2/det J");
     laws_report(&backends, "both backends, every clock");
-    laws_report(&newton, "the ball: J w' = J w x w + lambda n + k n x dU/dn");
-    laws_report(&turning, "the ball: n' = k n x w");
-    laws_report(&clocks, "ds/dt");
-    laws_report(&energies, "h = (w,Jw)/2 + U = eps k^2/det J");
 }
 
 /* --- a level that the caller states ----------------------------------------------------------------------------- */

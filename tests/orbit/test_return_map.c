@@ -1,20 +1,18 @@
-/* The return map of free orbits in lanes, lib/orbit/crossings.h: its derivative, its integrals, and that
+/* The return map of free orbits in lanes, lib/orbit/crossings.h: its derivative, and that
  * the numbers of an orbit do not depend on other orbits. */
 #include "base/math_impl.h"
 #include "base/random_impl.h"
-#include "laws.h"
+#include "crossed.h"
 #include "map/section_impl.h"
 #include "map/state.h"
-#include "orbit/crossings.h"
 
-enum { MOST_ORBITS = 1000, MOST_EACH = 1000 };
+enum { MOST_ORBITS = 64 };
 
 static iso_context *ctx;
 static iso_params params;
 static iso_start starts[MOST_ORBITS];
 static iso_batch_orbit orbits[MOST_ORBITS];
 static iso_status status[MOST_ORBITS];
-static size_t done[MOST_ORBITS];
 
 static void start_at(int i, double l, double x)
 {
@@ -38,11 +36,7 @@ static void start_spread(double k, const double J[3], int count)
 static void go(const iso_crossings_options *o, const iso_batch_orbit from[], int count, size_t each,
                iso_crossing crossing[])
 {
-    iso_crossings *c;
-    if (iso_crossings_create(ctx, from, (size_t)count, o, &c) != ISO_OK ||
-        iso_crossings_go(c, NULL, each, crossing, NULL, done, status) != ISO_OK)
-        gsl_test(1, "crossings: %s", iso_context_message(ctx));
-    iso_crossings_free(c);
+    crossed_all(ctx, from, (size_t)count, o, each, crossing, NULL);
 }
 
 static iso_crossings_options options_of(iso_backend backend, const char *vectors, bool deviations)
@@ -67,9 +61,8 @@ static void image(const void *options, const double from[], double to[])
     to[0] = cos(crossing.l), to[1] = sin(crossing.l), to[2] = crossing.x;
 }
 
-static void check_slope(const iso_crossings_options *o, double l, double x, laws_worst *slopes, laws_worst *areas)
+static void check_slope(const iso_crossings_options *o, double l, double x, laws_worst *slopes)
 {
-    const int axis = iso_section_axis(iso_free_point(&params, 1));
     iso_crossing c;
     start_at(0, l, x);
     go(o, orbits, 1, 1, &c);
@@ -81,17 +74,12 @@ static void check_slope(const iso_crossings_options *o, double l, double x, laws
         laws_note(slopes, fabs(c.slope[0][j] - dl) / size, 1e-8, &params, "by l");
         laws_note(slopes, fabs(c.slope[1][j] - found[2]) / size, 1e-8, &params, "by x");
     }
-    const double det = c.slope[0][0] * c.slope[1][1] - c.slope[0][1] * c.slope[1][0];
-    const double size = fabs(c.slope[0][0] * c.slope[1][1]) + fabs(c.slope[0][1] * c.slope[1][0]);
-    const double expected = iso_section_momentum(iso_free_point(&params, 1), axis, l) /
-                            iso_section_momentum(iso_free_point(&params, 1), axis, c.l);
-    laws_note(areas, fabs(det - expected) / size, 1e-11, &params, "area");
 }
 
 static void check_slopes(void)
 {
     static const char *const vectors[] = {"plain", "avx2", "avx512", "extended", "quad"};
-    laws_worst slopes = {0}, areas = {0};
+    laws_worst slopes = {0};
     for (int n = 0; n < tests_length(KS, 3 * KS); n++) {
         iso_section_spread spread;
         double l, x;
@@ -106,51 +94,10 @@ static void check_slopes(void)
                 if (iso_crossings_create(ctx, orbits, 0, &o, &c) != ISO_OK) continue; /* no such vectors here */
                 iso_crossings_free(c);
                 if (v == 4 && n >= 1) continue; /* slow */
-                check_slope(&o, l, x, &slopes, &areas);
+                check_slope(&o, l, x, &slopes);
             }
     }
     laws_report(&slopes, "the derivative of the return map, by differences");
-    laws_report(&areas, "it keeps dL dl");
-}
-
-/* --- integrals -------------------------------------------------------------------------------------------------- */
-
-/* The second integral of the point with eps = 1, in units of the largest of its terms. */
-static double second_integral(const double point[ISO_STATE])
-{
-    const double *J = params.J, *inv = params.inv_J, *M = point, *gamma = point + 3;
-    double velocity[3], a = 0, b = 0;
-    cross(gamma, M, velocity);
-    for (int i = 0; i < 3; i++) {
-        a += params.k == -1 ? M[i] * J[i] * M[i] / params.det_J : velocity[i] * inv[i] * velocity[i];
-        b += params.k == -1 ? 2 * gamma[i] * inv[i] * gamma[i] : 0;
-    }
-    return a + b;
-}
-
-static void check_integrals(void)
-{
-    const int count = tests_length(100, MOST_ORBITS), each = tests_length(100, MOST_EACH);
-    iso_crossing *crossing = malloc((size_t)count * (size_t)each * sizeof *crossing);
-    laws_worst worst = {0};
-    for (int n = 0; crossing && n < 4; n++) {
-        start_spread(n % 2 == 0 ? -1 : 1, Js[0], count);
-        const int axis = iso_section_axis(iso_free_point(&params, 1));
-        const iso_crossings_options o = options_of(n / 2 == 0 ? ISO_BACKEND_BALL : ISO_BACKEND_POINT, NULL, false);
-        go(&o, orbits, count, (size_t)each, crossing);
-        for (int i = 0; i < count; i++) {
-            const double F = second_integral(starts[i].y);
-            for (int j = 0; j < each; j++) {
-                double point[ISO_STATE];
-                const iso_crossing *c = &crossing[i * each + j];
-                iso_section_point(iso_free_point(&params, 1), axis, c->l, c->x, point);
-                laws_note(&worst, fabs(second_integral(point) - F) / fabs(F), 1e-12, &params, "F");
-            }
-        }
-    }
-    gsl_test(!crossing, "memory");
-    laws_report(&worst, "k = 1, -1: all crossings on their level of F");
-    free(crossing);
 }
 
 /* --- no orbit feels another ------------------------------------------------------------------------------------- */
@@ -219,7 +166,6 @@ int main(void)
 {
     ctx = iso_context_create();
     check_slopes();
-    check_integrals();
     const char *vectors;
     for (int v = 0; (vectors = iso_batch_vectors(v, NULL)); v++)
         for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++)

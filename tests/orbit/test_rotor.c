@@ -1,6 +1,7 @@
-/* A ball with a rotor, and the point in its magnetic field: states in quadruple precision by both backends, where
- * integrals hold, the motion backwards, and the reversors of the return map. */
+/* A ball with a rotor, and the point in its magnetic field: states in quadruple precision by both backends, the
+ * motion backwards, and the reversors of the return map. */
 #include "base/math_impl.h"
+#include "crossed.h"
 #include "map/section_impl.h"
 #include "numbers.h"
 #include "orbit/crossings_impl.h"
@@ -81,17 +82,12 @@ static double growth_of(const rotor_case *c, double t)
 {
     iso_crossings_options o = iso_crossings_defaults();
     const iso_batch_orbit of = {&c->p, &c->start, &c->effects};
-    iso_crossings *crossings;
     iso_crossing at;
-    size_t done;
-    iso_status status;
     o.backend = ISO_BACKEND_BALL;
     o.kind = ISO_SECTION_CLOCK;
     o.value = t;
     o.deviations = true;
-    laws_stop_if(ctx, iso_crossings_create(ctx, &of, 1, &o, &crossings) != ISO_OK, "deviations");
-    laws_stop_if(ctx, iso_crossings_go(crossings, NULL, 1, &at, NULL, &done, &status) != ISO_OK, "deviations");
-    iso_crossings_free(crossings);
+    laws_stop_if(ctx, !crossed(ctx, &of, &o, 1, &at, NULL), "deviations");
     return fmax(1, exp(fmax(at.growth[0], at.growth[1]))) * (1 + t);
 }
 
@@ -124,40 +120,6 @@ static void references(void)
     gsl_test_int(count, REFERENCES, "rows of rotor.csv");
     laws_report(&worst, "states of rotor.csv by both backends");
     laws_report(&clock, "their clock s");
-}
-
-/* --- integrals -------------------------------------------------------------------------------------------------- */
-
-static const iso_integral *find_integral(const iso_integral *list, const char *name)
-{
-    while (strcmp(list->name, name) != 0) list++;
-    return list;
-}
-
-/* Where the table says that they hold; that they then do, and else not: model/test_level. */
-static void integrals(void)
-{
-    static const struct {
-        const char *name;
-        double k, J[3], K[3];
-        bool holds;
-    } cases[] = {
-        {"F_rotor", 1, {1, 2, 5}, {0.3, 0.4, 0.5}, true},    {"F_rotor", 1, {1.4, 2.1, 3}, {0, -2, 0}, true},
-        {"F_rotor", 0.9, {1, 2, 5}, {0.3, 0.4, 0.5}, false}, {"F_rotor", 1.001, {1, 2, 5}, {0.3, 0.4, 0.5}, false},
-        {"F_rotor", -1, {1, 2, 5}, {0.3, 0.4, 0.5}, false},  {"F_rotor3", 0.5, {2, 2, 3}, {0, 0, 0.7}, true},
-        {"F_rotor3", -1, {2, 2, 0.6}, {0, 0, -1.4}, true},   {"F_rotor3", 0.7, {2, 2, 2.0000001}, {0, 0, 1}, true},
-        {"F_rotor3", 0.7, {2, 2, 2}, {0, 0, 1}, true},       {"F_rotor1", 2, {1, 2, 2}, {0.7, 0, 0}, true},
-        {"F_rotor2", -0.4, {2, 1, 2}, {0, 0.7, 0}, true},    {"F_rotor3", 0.5, {2, 2, 3}, {0.1, 0, 0.7}, false},
-        {"F_rotor3", 0.5, {2, 2.1, 3}, {0, 0, 0.7}, false},  {"F_round", 0.6, {2, 2, 2}, {0.5, -0.3, 0.8}, true},
-        {"F_round", -1, {2, 2, 2}, {0.5, -0.3, 0.8}, true},  {"F_round", -1, {2, 2, 2.2}, {0.5, -0.3, 0.8}, false},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const iso_problem f = {.p = laws_params(cases[i].k, cases[i].J), .effects = rotor_of(cases[i].K)};
-        const bool holds[2] = {find_integral(iso_effect_rotor.integrals, cases[i].name)->holds(&f),
-                               find_integral(iso_effect_rotor.image_integrals, cases[i].name)->holds(&f)};
-        gsl_test(holds[0] != cases[i].holds || holds[1] != cases[i].holds, "%s, k = %g: whether it holds",
-                 cases[i].name, cases[i].k);
-    }
 }
 
 /* --- the motion backwards --------------------------------------------------------------------------------------- */
@@ -202,20 +164,15 @@ static void return_map(const rotor_case *c, int axis, double z[2])
 {
     iso_orbit *orbit = open_orbit(c, ISO_BACKEND_BALL, 1e-14);
     iso_crossings_options o = iso_crossings_defaults();
-    iso_crossings *crossings;
     iso_crossing crossing;
-    size_t done;
-    iso_status status;
     const iso_start start = iso_section_start(orbit, ISO_BALL, axis, z[0], z[1]);
     o.axis = axis;
     o.backend = ISO_BACKEND_BALL;
     o.tolerance = 1e-14;
     const iso_batch_orbit of = {&c->p, &start, &c->effects};
-    laws_stop_if(ctx, iso_crossings_create(ctx, &of, 1, &o, &crossings) != ISO_OK, "crossings");
-    laws_stop_if(ctx, iso_crossings_go(crossings, NULL, 1, &crossing, NULL, &done, &status) != ISO_OK, "a crossing");
+    laws_stop_if(ctx, !crossed(ctx, &of, &o, 1, &crossing, NULL), "a crossing");
     z[0] = crossing.l;
     z[1] = crossing.x;
-    iso_crossings_free(crossings);
     iso_orbit_free(orbit);
 }
 
@@ -261,7 +218,6 @@ int main(void)
     ctx = iso_context_create();
     iso_random *r = iso_random_create(2024);
     references();
-    integrals();
     backwards(r);
     reversors();
     iso_random_free(r);

@@ -12,16 +12,21 @@ static iso_context *ctx;
 
 /* --- what is drawn ---------------------------------------------------------------------------------------------- */
 
-static iso_scene make_scene(double k)
+static iso_scene make_scene_of(double k, const char *effects)
 {
-    char text[400];
+    char text[500];
     iso_scene scene = iso_scene_default();
     snprintf(text, sizeof text,
              "reduced: {k: %.17g, J: [1, 2, 5], D: 0.5}\ninitial: {normal: [0.36, 0.48, 0.8], angular_velocity: "
-             "[0.9, -0.3, -0.225]}\ntime: {end: 1}\n",
-             k);
+             "[0.9, -0.3, -0.225]}\ntime: {end: 1}\neffects: {%s}\n",
+             k, effects);
     gsl_test((int)iso_scene_load_text(ctx, "test", text, strlen(text), &scene), "%s", iso_context_message(ctx));
     return scene;
+}
+
+static iso_scene make_scene(double k)
+{
+    return make_scene_of(k, "");
 }
 
 static iso_record *make_section(const iso_scene *scene, size_t starts, size_t crossings)
@@ -243,11 +248,31 @@ static void test_pairs(void)
     iso_record_free(point);
 }
 
+/* All three reversors hold without a rotor, two with K along axis 1, none with another: more mirrors, more images. */
+static void test_mirrors(void)
+{
+    static const char *const momentum[] = {"0.001, 0.001, 0.001", "0.001, 0, 0", "0, 0, 0"};
+    size_t last = 0;
+    for (int i = 0; i < 3; i++) {
+        char effects[80];
+        snprintf(effects, sizeof effects, "rotor: {momentum: [%s]}", momentum[i]);
+        iso_scene scene = make_scene_of(1, effects);
+        iso_record *section = make_section(&scene, 3, 100);
+        iso_picture p = make_picture((const iso_record *[]){section, NULL}, NULL);
+        const size_t spots = iso_record_rows(iso_picture_table(&p, "ball"));
+        gsl_test(2 * spots < 3 * last || spots == 0, "K = %s: %zu spots behind %zu", momentum[i], spots, last);
+        last = spots;
+        iso_picture_free(&p);
+        iso_record_free(section);
+    }
+}
+
 int main(void)
 {
     ctx = iso_context_create();
     test_shades();
     test_images();
+    test_mirrors();
     test_window();
     test_image();
     test_pairs();

@@ -5,6 +5,8 @@
 #include <complex.h>
 #include <math.h>
 
+#include "base/random_impl.h"
+
 typedef double complex complex_number;
 typedef complex_number matrix[2][2];
 
@@ -42,6 +44,17 @@ static inline void path_step(path_slope *slope, const void *f, int count, comple
     path_runge_kutta(slope, f, count, t, h / 2, y);
     path_runge_kutta(slope, f, count, t + h / 2, h / 2, y);
     for (int i = 0; i < count; i++) y[i] += (y[i] - rough[i]) / 15;
+}
+
+/* Moments of which the second is between the others, in either order: the least, and the ratios of neighbours. */
+static inline void draw_between(iso_random *random, double least, double low, double high, double J[3])
+{
+    const double middle = least * iso_random_uniform(random, low, high);
+    const double most = middle * iso_random_uniform(random, low, high);
+    const bool turn = iso_random_uniform(random, 0, 1) < 0.5;
+    J[0] = turn ? most : least;
+    J[1] = middle;
+    J[2] = turn ? least : most;
 }
 
 /* --- matrices of loops ------------------------------------------------------------------------------------------ */

@@ -6,7 +6,8 @@ hard_road hard_way[HARD_WAYS];
 int hard_ways;
 
 static struct {
-    const char *topic, *name;
+    const char *topic;
+    char name[128];
     FILE *table;
 } book;
 
@@ -15,6 +16,13 @@ static double usual_tolerance(const iso_method *m)
     const bool bdf = m->implicit && strstr(m->name, "bdf");
     if (m->order == 0) return bdf ? 1e-8 : 1e-12;
     return m->order <= 2 ? 1e-6 : m->order <= 4 ? 1e-9 : 1e-12;
+}
+
+/* At the short length every third method, of each topic others; and two that tests call by their names. */
+static bool is_taken(const iso_method *m, size_t number)
+{
+    return number % 3 == strlen(book.topic) % 3 || tests_length(0, 1) || strcmp(m->name, "taylor") == 0 ||
+           strcmp(m->name, "rk8pd") == 0;
 }
 
 void hard_topic(const char *title)
@@ -31,7 +39,7 @@ void hard_topic(const char *title)
         for (int i = 0; iso_methods[i] && hard_ways < HARD_WAYS - 1; i++) {
             const iso_method *m = iso_methods[i];
             const iso_system *system = backend == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point;
-            if (m->reference || (m->system && m->system != system)) continue;
+            if (m->reference || (m->system && m->system != system) || !is_taken(m, (size_t)i)) continue;
             hard_way[hard_ways++] = (hard_road){(iso_backend)backend, m, usual_tolerance(m)};
         }
     hard_way[hard_ways++] = (hard_road){ISO_BACKEND_EXACT, NULL, 1e-12};
@@ -46,7 +54,7 @@ static void enter(const char *kind, const char *backend, const char *method, con
 
 void hard_case(const char *name, const char *quantity, const char *why)
 {
-    book.name = name;
+    snprintf(book.name, sizeof book.name, "%s", name);
     enter("case", quantity, why, "", 0);
 }
 
@@ -119,18 +127,6 @@ double hard_error(const double a[ISO_STATE], const double b[ISO_STATE])
         if (!(error <= worst)) worst = error;
     }
     return worst;
-}
-
-void hard_runge_kutta(hard_slopes *f, const void *data, int n, double t, double h, double y[])
-{
-    static const double at[4] = {0, 0.5, 0.5, 1}, weight[4] = {1, 2, 2, 1};
-    double dy[ISO_STATE] = {0}, sum[ISO_STATE] = {0}, z[ISO_STATE];
-    for (int s = 0; s < 4; s++) {
-        for (int i = 0; i < n; i++) z[i] = y[i] + at[s] * h * dy[i];
-        f(data, t + at[s] * h, z, dy);
-        for (int i = 0; i < n; i++) sum[i] += weight[s] / 6 * h * dy[i];
-    }
-    for (int i = 0; i < n; i++) y[i] += sum[i];
 }
 
 void hard_naive_squares(const double J[3], const double x[3], double square[3])

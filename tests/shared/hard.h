@@ -24,9 +24,11 @@ typedef struct hard_road {
     double tolerance;
 } hard_road;
 
+/* Filled by hard_topic: the ball's ways, the point's, then exact. No taylor_extended or taylor_quad, which are what
+ * others are measured by; at the short length every third method, taylor and rk8pd. */
 enum { HARD_WAYS = 80 };
-extern hard_road hard_way[HARD_WAYS]; /* filled by hard_topic: the ball's, the point's, then exact; */
-extern int hard_ways;                 /* no taylor_extended or taylor_quad, which are what others are measured by */
+extern hard_road hard_way[HARD_WAYS];
+extern int hard_ways;
 
 /* A title with its number in the list; first of all calls, once in a program. */
 void hard_topic(const char *title);
@@ -55,12 +57,7 @@ iso_status hard_solve(iso_context *ctx, const hard_road *way, const iso_params *
 /* Largest error of the six numbers, relative to each vector's length. */
 double hard_error(const double a[ISO_STATE], const double b[ISO_STATE]);
 
-/* --- for naive formulations, and equations of the tests' own ---------------------------------------------------- */
-
-typedef void hard_slopes(const void *data, double t, const double y[], double dy[]);
-
-/* A step h of the classical method of Runge and Kutta; n numbers, 6 at most. */
-void hard_runge_kutta(hard_slopes *f, const void *data, int n, double t, double h, double y[]);
+/* --- for naive formulations -------------------------------------------------------------------------------------- */
 
 /* The squares of x by (13), from the roots z1 <= z2 of sum_i x_i^2 (J_j - z)(J_l - z) = 0 as numbers. */
 void hard_naive_squares(const double J[3], const double x[3], double square[3]);

@@ -3,7 +3,6 @@
 #define ISO_TESTS_HARD_LONG_H
 
 #include <gsl/gsl_fit.h>
-#include <time.h>
 
 #include "hard.h"
 #include "orbit/orbit_impl.h"
@@ -26,9 +25,9 @@ typedef struct long_scene {
 } long_scene;
 
 typedef struct long_run {
-    bool refused, stopped;
+    bool refused;
     char words[256];
-    double spins;                  /* the length, or what was reached of it                  */
+    double spins;                  /* the length                                             */
     double drift[LONG_QUANTITIES]; /* the largest, in units of the integral's terms          */
     double trend;                  /* slope of the energy's error, in standard errors of it  */
     double error, growth;          /* at the end; p of the envelope error ~ t^p, last two decades */
@@ -97,23 +96,21 @@ static inline void long_fits(const long_looks *looks, long_run *run)
         looks->errors > 10 ? long_slope(looks->log_time, looks->log_error, looks->errors, &standard_error) : NAN;
 }
 
-/* Runs the scene by one way for so many spins, for at most `limit` seconds of processor time (0: no limit). Errors
- * are measured against another way (NULL: no errors). */
+/* Runs the scene by one way for so many spins. Errors are measured against another way (NULL: no errors). */
 static inline long_run long_follow(iso_context *ctx, const long_scene *scene, const hard_road *way, double spins,
-                                   const hard_road *against, double limit)
+                                   const hard_road *against)
 {
     static long_looks looks;
     long_run run = {.spins = spins};
     iso_orbit *orbit, *truth = NULL;
     iso_sample s, right;
-    const clock_t begun = clock();
     looks = (long_looks){.count = 0};
     run.refused = long_create(ctx, scene, way, &orbit) != ISO_OK;
     snprintf(run.words, sizeof run.words, "%s", run.refused ? iso_context_message(ctx) : "");
     if (run.refused) return run;
     laws_stop_if(ctx, against && long_create(ctx, scene, against, &truth) != ISO_OK, "no reference");
     long_look(orbit, (iso_orbit_at(orbit, 0, &s), &s), true, &looks, &run);
-    for (int i = 0; i < LONG_LOOKS && !run.stopped; i++) {
+    for (int i = 0; i < LONG_LOOKS; i++) {
         const double time = (i + 1) * spins / LONG_LOOKS * scene->spin;
         if (iso_orbit_at(orbit, time, &s) != ISO_OK) {
             snprintf(run.words, sizeof run.words, "%s", iso_context_message(ctx));
@@ -123,8 +120,6 @@ static inline long_run long_follow(iso_context *ctx, const long_scene *scene, co
         looks.time[i] = (double)(i + 1) / LONG_LOOKS;
         long_look(orbit, &s, false, &looks, &run);
         looks.count = i + 1;
-        run.spins = (i + 1) * spins / LONG_LOOKS;
-        run.stopped = limit > 0 && (double)(clock() - begun) / CLOCKS_PER_SEC > limit;
         if (!truth) continue;
         laws_stop_if(ctx, iso_orbit_at(truth, time, &right) != ISO_OK, "the reference stops");
         const double error = hard_error(s.ball, right.ball);

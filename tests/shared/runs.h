@@ -2,7 +2,6 @@
 #ifndef ISO_TESTS_RUNS_H
 #define ISO_TESTS_RUNS_H
 
-#include "io/scene_file.h"
 #include "orbit/orbit_impl.h"
 #include "scenes.h"
 #include "studies.h"
@@ -16,13 +15,6 @@
 #define POINT "point: {k: -1, J: [1.4, 2.1, 3.0]}\ninitial: {gamma: [0.6, 0, 0.8], M: [0, 2.5, 0]}\n"
 #define GRAVITY "gravity: {g: 9.81, up: [0.48, 0.6, 0.64]}"
 #define TIME "time: {end: 2, step: 0.25}\n"
-
-static inline iso_scene parse(const char *text)
-{
-    iso_scene scene;
-    laws_stop_if(ctx, iso_scene_load_text(ctx, "scene", text, strlen(text), &scene) != ISO_OK, text);
-    return scene;
-}
 
 /* --- a sink that keeps everything ------------------------------------------------------------------------------- */
 

@@ -2,6 +2,7 @@
 #ifndef ISO_TESTS_STUDIES_H
 #define ISO_TESTS_STUDIES_H
 
+#include "io/scene_file.h"
 #include "laws.h"
 #include "orbit/scene.h"
 
@@ -11,6 +12,13 @@ static iso_context *ctx; /* the test's */
 static inline void must(iso_status status, const char *what)
 {
     laws_stop_if(ctx, status != ISO_OK, what);
+}
+
+static inline iso_scene parse(const char *text)
+{
+    iso_scene scene;
+    must(iso_scene_load_text(ctx, "scene", text, strlen(text), &scene), text);
+    return scene;
 }
 
 /* A free ball with these k and J, at the start that most tests have. */

@@ -182,14 +182,14 @@ static void neumann(void)
         const double bottom = min3(p.c) / 2, top = max3(p.c) / 2;
         p.energy = top + iso_random_uniform(rng, 0.1, 3);
         a = check_problem(&p, true, &free);
-        gsl_test(a.way != ISO_ANALOGUE_FREE || a.reduced.params.k != -1, "Neumann: a free shell");
+        gsl_test(a.choice != ISO_ANALOGUE_FREE || a.reduced.params.k != -1, "Neumann: a free shell");
         p.level = true;
         a = check_problem(&p, false, &asked);
-        gsl_test(a.way != ISO_ANALOGUE_SHIFTED || !a.has_body, "Neumann: the level that was asked for has a body");
+        gsl_test(a.choice != ISO_ANALOGUE_SHIFTED || !a.has_body, "Neumann: the level that was asked for has a body");
         p.level = false;
         p.energy = bottom + iso_random_uniform(rng, 0.1, 0.9) * (top - bottom);
         a = check_problem(&p, false, &level);
-        gsl_test(a.way != ISO_ANALOGUE_SHIFTED || !a.has_body, "Neumann: a level's ball has a body");
+        gsl_test(a.choice != ISO_ANALOGUE_SHIFTED || !a.has_body, "Neumann: a level's ball has a body");
         laws_note(&level.of[POTENTIAL], max3(a.reduced.params.J) / min3(a.reduced.params.J) - 1.5, 1e-12,
                   &a.reduced.params, "conditioning");
         p.energy = bottom + 1e-6 * (top - bottom);
@@ -219,7 +219,7 @@ static void general(void)
         p.eps = -p.eps;
         p.energy = -0.3 * one - 0.7 * two;
         const iso_analogue a = check_problem(&p, false, &negative);
-        gsl_test(!(a.reduced.h < 0) || a.way != ISO_ANALOGUE_STATED, "eps < 0: h = %g", a.reduced.h);
+        gsl_test(!(a.reduced.h < 0) || a.choice != ISO_ANALOGUE_STATED, "eps < 0: h = %g", a.reduced.h);
     }
     report(&zero, "general k, E = 0");
     report(&above, "general k, E > 0");
@@ -236,17 +236,17 @@ static void shell(void)
         iso_analogue_problem p = {.k = -1, .eps = iso_random_uniform(rng, 0.2, 4)};
         vector(1.6, 3, p.J); /* J1 + J2 > J3 */
         a = check_problem(&p, true, &zero);
-        gsl_test(a.way != ISO_ANALOGUE_STATED || memcmp(a.reduced.params.J, p.J, sizeof p.J) != 0,
+        gsl_test(a.choice != ISO_ANALOGUE_STATED || memcmp(a.reduced.params.J, p.J, sizeof p.J) != 0,
                  "shell: J as stated");
         p.level = true;
         check_problem(&p, true, &zero); /* E = 0 with a body: there is no level to be had */
         p.level = false;
         p.energy = iso_random_uniform(rng, -0.9, 2) * p.eps * min3(p.J);
         a = check_problem(&p, true, &free);
-        gsl_test(a.way != ISO_ANALOGUE_FREE || a.reduced.eps != p.eps, "shell: the shift of J leaves eps");
+        gsl_test(a.choice != ISO_ANALOGUE_FREE || a.reduced.eps != p.eps, "shell: the shift of J leaves eps");
         p.energy = -p.eps * iso_random_uniform(rng, 1.01 * min3(p.J), 0.99 * max3(p.J));
         a = check_problem(&p, false, &level);
-        gsl_test(a.way != ISO_ANALOGUE_STATED || !a.has_body, "shell: the stated J with a level");
+        gsl_test(a.choice != ISO_ANALOGUE_STATED || !a.has_body, "shell: the stated J with a level");
         p.eps = -p.eps;
         p.energy = fabs(p.energy);
         a = check_problem(&p, false, &negative);
@@ -260,7 +260,7 @@ static void shell(void)
         p.energy = i % 2 ? 0 : -1.1 * p.eps * min3(p.J);
         p.level = i % 2;
         a = check_problem(&p, false, &flat);
-        gsl_test(a.way != ISO_ANALOGUE_SHIFTED || !a.has_body, "shell: a level gives a body to what has none");
+        gsl_test(a.choice != ISO_ANALOGUE_SHIFTED || !a.has_body, "shell: a level gives a body to what has none");
     }
     report(&zero, "shell, E = 0");
     report(&free, "shell, free by a shift of J");
@@ -283,7 +283,7 @@ static void constant(void)
         gsl_test(a.reduced.params.J[0] != 1.7, "equal moments stay");
         p = (iso_analogue_problem){.k = general_k[i], .J = {1, 2, 5}, .eps = 0, .energy = over};
         a = check_problem(&p, true, &w);
-        gsl_test(a.way != ISO_ANALOGUE_CONSTANT || !a.has_body, "eps = 0: a ball of equal moments");
+        gsl_test(a.choice != ISO_ANALOGUE_CONSTANT || !a.has_body, "eps = 0: a ball of equal moments");
     }
     report(&w, "constant potentials");
 }

@@ -1,6 +1,7 @@
 /* The law of iso_check: in a file that a run made, every number of every column and of every line, changed by a
  * millionth, raises a residual above what the file itself passes, or the check says that nobody looks at it. Over the
- * tables: every effect on every kind of ball, with all that observes, both models, every choice of columns. */
+ * tables: every effect on every kind of ball, with all that observes, both models, every choice of columns. And which
+ * residuals tell. */
 #include "effects.h"
 #include "orbit/description.h"
 #include "scenes.h"
@@ -223,10 +224,62 @@ static void hold_effect(const rolling *ball, int which, int acting, iso_random *
         }
 }
 
+/* --- which residuals tell ---------------------------------------------------------------------------------------- */
+
+/* Row 4 of a free ball's file with both models and all clocks: the vector that begins with the column, or the clock, is
+ * scaled, or the unit vector behind it is added `along` times. What that raises, and nothing else. */
+static const struct damage {
+    double k;
+    const char *column;
+    double along;
+    const char *raised;
+} damages[] = {
+    {0.75, "n1", 0, " ball |n|, ball flow,"},
+    {0.75, "gamma1", 0, " point |gamma|, point H, point flow, map,"},
+    {0.75, "omega1", 1e-7, " ball omega.n, ball h, ball flow, map,"},
+    {0.75, "M1", 1e-7, " point M.gamma, point flow, map,"},
+    {0.75, "omega1", 0, " ball h, ball flow, clock tau, clock s, map,"},
+    {1, "omega1", 0, " ball h, ball F_plane, ball flow, clock tau, clock s, map,"},
+    {-1, "omega1", 0, " ball h, ball F_shell, ball flow, clock tau, clock s, map,"},
+    {0.75, "M1", 0, " point H, point flow, clock t, clock tau, map,"},
+    {1, "M1", 0, " point H, point F_plane, point flow, clock t, clock tau, map,"},
+    {-1, "M1", 0, " point H, point F_shell, point flow, clock t, clock tau, map,"},
+    {0.75, "s", 0, " clock t, clock tau, clock s, point flow,"},
+    {0.75, "tau", 0, " clock tau,"},
+    {0.75, "t", 0, " clock t, clock tau, clock s, ball flow,"},
+};
+
+static void hold_damage(const struct damage *d)
+{
+    iso_scene scene = ball_scene(d->k, (const double[]){1.4, 2.1, 3});
+    iso_record *record;
+    iso_residuals r;
+    scene.end = 3.2, scene.step = 0.4, scene.tolerance = 1e-14, scene.as = ISO_SHOW_BOTH;
+    scene.effects.on[ISO_CLOCK] = true;
+    must(iso_run(ctx, &scene, NULL, &(iso_sink){.data = NULL}, &record, NULL), "a run");
+    double *x = iso_record_row(record, 3) + iso_record_find(record, d->column);
+    for (int i = 0; i < (strchr(d->column, '1') ? 3 : 1); i++)
+        x[i] += d->along > 0 ? d->along * x[3 + i] : 1e-7 * x[i];
+    must(iso_check(ctx, &scene.params, record, 1e-14, &r), "a check");
+    int raised = 0, commas = 0;
+    for (int i = 0; i < r.count; i++) {
+        char name[64];
+        snprintf(name, sizeof name, " %s,", r.residual[i].name);
+        const bool wanted = strstr(d->raised, name) != NULL;
+        raised += wanted;
+        gsl_test((r.residual[i].worst > BOUND) != wanted, "%s, k = %g: %s is %.2g", d->column, d->k,
+                 r.residual[i].name, r.residual[i].worst);
+    }
+    for (const char *c = d->raised; *c; c++) commas += *c == ',';
+    gsl_test_int(raised, commas, "%s, k = %g: residuals that tell (%s)", d->column, d->k, d->raised);
+    iso_record_free(record);
+}
+
 int main(void)
 {
     ctx = iso_context_create();
     iso_random *random = iso_random_create(29);
+    for (size_t i = 0; i < sizeof damages / sizeof *damages; i++) hold_damage(&damages[i]);
     for (int which = 0; which < ROLLINGS; which++) {
         const rolling ball = rolling_ball(ctx, which);
         for (int acting = 0; acting <= ISO_EFFECTS; acting++) hold_effect(&ball, which, acting, random);

@@ -1,12 +1,38 @@
 /* What accuracy costs (task/cost/cost.h): that the errors told are the true ones, that fits find orders and what is
  * broken, and that what is chosen is the cheapest. How long anything takes is no test. */
-#include "costs.h"
 #include "method/integrator_impl.h"
 #include "orbit/watch_impl.h"
 #include "reference.h"
+#include "scenes.h"
+#include "studies.h"
 #include "task/cost/cost_impl.h"
 
-static iso_context *ctx;
+static iso_scene cost_scene(double k, const double J[3], double end)
+{
+    static const double omega[3] = {0.8, -0.6, 0}, normal[3] = {0.36, 0.48, 0.8};
+    iso_scene s = ball_scene(k, J);
+    s.end = end;
+    must(iso_start_ball(ctx, omega, normal, ISO_SPIN_REFUSE, &s.start), "a start");
+    return s;
+}
+
+static iso_scene cost_plane(void)
+{
+    return cost_scene(1, (const double[]){1, 2, 4}, 40);
+}
+
+/* The measured cost. A machine that is too slow for a reference in this time gets more of it. Ends the test when there
+ * is none. */
+static iso_cost *cost_of(const iso_scene *scene, const iso_cost_options *o)
+{
+    iso_cost_options longer = *o;
+    iso_cost *c;
+    while (iso_cost_measure(ctx, scene, &longer, &c) != ISO_OK) {
+        laws_stop_if(ctx, !strstr(iso_context_message(ctx), "too long") || longer.seconds > 100, "a measurement");
+        longer.seconds *= 4;
+    }
+    return c;
+}
 
 /* --- errors against quadruple precision ------------------------------------------------------------------------- */
 
@@ -37,7 +63,7 @@ static void compare_with(const reference *r, const char *method, laws_worst *hig
     o.times = 1;
     o.seconds = 0.2;
     o.method = iso_method_find(method);
-    iso_cost *c = cost_of(ctx, &s, &o);
+    iso_cost *c = cost_of(&s, &o);
     /* the numbers of the file are no doubles: a start that is rounded is that of a neighbour */
     const double of_start = 4e-16 * (1 + r->t * norm(r->start.y));
     for (int i = 0; i < c->cells; i++) {
@@ -83,15 +109,15 @@ static iso_status broken_step(iso_integrator *it, double y[], double *h)
 static void check_broken(void)
 {
     iso_method broken = *iso_method_find("rk8pd");
-    const iso_scene s = cost_plane(ctx);
+    const iso_scene s = cost_plane();
     iso_cost_options o = iso_cost_defaults();
     o.seconds = 1;
     o.backend = ISO_BACKEND_BALL;
     o.method = iso_method_find("rk8pd");
-    iso_cost *good = cost_of(ctx, &s, &o);
+    iso_cost *good = cost_of(&s, &o);
     broken.step = broken_step;
     o.method = &broken;
-    iso_cost *bad = cost_of(ctx, &s, &o);
+    iso_cost *bad = cost_of(&s, &o);
     gsl_test(!(fabs(good->series[0].order - 8) < 1.5), "rk8pd has order %.2f", good->series[0].order);
     gsl_test(!(bad->series[0].order > 0 && bad->series[0].order < 2), "broken, it has order %.2f",
              bad->series[0].order);
@@ -108,7 +134,7 @@ static void check_orders(const iso_cost *c)
     for (int l = 0; l < c->series_count; l++) {
         const iso_cost_series *series = &c->series[l];
         int cells = 0;
-        for (int i = 0; i < series->count; i++) cells += cost_is_measured(&c->cell[series->first + i]);
+        for (int i = 0; i < series->count; i++) cells += iso_cost_is_measured(&c->cell[series->first + i]);
         if (!series->method || series->method->order == 0 || series->method->order > 8 || cells < 4) continue;
         const double least = 0.8 * series->method->order, most = 1.15 * series->method->order + 2;
         gsl_test(!(series->order > least && series->order < most), "%s %s: order %d is found as %.2f",
@@ -126,7 +152,7 @@ static void check_cells(const iso_cost *c, const char *scene)
     for (int i = 0; i < c->cells; i++) {
         const iso_cost_cell *x = &c->cell[i];
         if (x->status != ISO_OK) strange += x->why[0] == 0;
-        if (!cost_is_measured(x)) continue;
+        if (!iso_cost_is_measured(x)) continue;
         measured++;
         strange += !(x->error >= 0 && x->setup >= 0 && x->fastest > 0 && x->fastest <= x->median &&
                      x->median <= x->slowest && x->total == x->setup + x->median && x->repeats >= 3);
@@ -143,14 +169,14 @@ static bool is_beaten(const iso_cost *c, const iso_cost_cell *by, const iso_cost
 {
     const double a = by->below ? fmax(by->error, c->uncertainty) : by->error;
     const double b = cell->below ? fmax(cell->error, c->uncertainty) : cell->error;
-    return cost_is_measured(by) && a <= b && 1.05 * by->total < cell->total;
+    return iso_cost_is_measured(by) && a <= b && 1.05 * by->total < cell->total;
 }
 
 static void check_front(const iso_cost *c)
 {
     int wrong = 0, front = 0;
     for (int i = 0; i < c->cells; i++) {
-        bool beaten = !cost_is_measured(&c->cell[i]) || !(c->cell[i].error < 0.1);
+        bool beaten = !iso_cost_is_measured(&c->cell[i]) || !(c->cell[i].error < 0.1);
         for (int j = 0; j < c->cells; j++) beaten = beaten || is_beaten(c, &c->cell[j], &c->cell[i]);
         wrong += c->cell[i].pareto == beaten;
         front += c->cell[i].pareto;
@@ -166,7 +192,7 @@ static void check_choice(const iso_cost *c)
         const iso_cost_cell *best = iso_cost_choose(c, false, NULL, want);
         for (int i = 0; i < c->cells; i++) {
             const iso_cost_cell *x = &c->cell[i];
-            const bool may = cost_is_measured(x) && x->error <= want && (!x->below || c->uncertainty <= want);
+            const bool may = iso_cost_is_measured(x) && x->error <= want && (!x->below || c->uncertainty <= want);
             wrong += may && (!best || x->total < best->total);
             wrong += best == x && !may;
         }
@@ -182,9 +208,9 @@ static void check_choice(const iso_cost *c)
 static void check_plane(void)
 {
     iso_cost_options o = iso_cost_defaults();
-    const iso_scene s = cost_plane(ctx);
+    const iso_scene s = cost_plane();
     o.seconds = 4;
-    iso_cost *c = cost_of(ctx, &s, &o);
+    iso_cost *c = cost_of(&s, &o);
     check_cells(c, "a ball on a plane");
     check_orders(c);
     check_front(c);
@@ -207,7 +233,7 @@ static void check_scene(const iso_scene *s, const char *name, bool point, bool e
     iso_cost *c = NULL;
     for (o.seconds = 1; !c || (!(c->uncertainty < uncertainty) && o.seconds < 100); o.seconds *= 8) {
         iso_cost_free(c); /* a slow machine had no time for a second reference */
-        c = cost_of(ctx, s, &o);
+        c = cost_of(s, &o);
     }
     check_cells(c, name);
     for (int i = 0; i < c->series_count; i++) {
@@ -225,20 +251,20 @@ static void check_scene(const iso_scene *s, const char *name, bool point, bool e
 static void check_scenes(void)
 {
     static const double J[3] = {1.4, 2.1, 3.0}, M[3] = {0.64, 1, -0.48}, gamma[3] = {0.6, 0, 0.8}, eps = 0.5;
-    iso_scene s = cost_scene(ctx, 0.7, J, 20);
+    iso_scene s = cost_scene(0.7, J, 20);
     check_scene(&s, "k = 0.7", true, false, 1e-13);
     add_field(&s.effects);
     check_scene(&s, "field", true, false, 1e-13);
-    s = cost_scene(ctx, 0.7, J, -20);
+    s = cost_scene(0.7, J, -20);
     s.effects.on[ISO_GRAVITY] = true;
     GRAVITY_MGB(&s.effects) = 0.5;
     GRAVITY_UP(&s.effects)[2] = 1;
     check_scene(&s, "gravity, backwards", false, false, 1e-11);
-    s = cost_scene(ctx, 0.7, J, 5);
+    s = cost_scene(0.7, J, 5);
     laws_stop_if(ctx, iso_params_set_D(ctx, 0.4, &s.params) != ISO_OK, "D");
     add_twist(300, &s.effects);
     check_scene(&s, "stiff twist", false, false, 1e-6);
-    s = cost_scene(ctx, -1, J, 20);
+    s = cost_scene(-1, J, 20);
     laws_stop_if(ctx, iso_start_point(ctx, M, gamma, &eps, false, &s.start) != ISO_OK, "a point");
     check_scene(&s, "a point", true, true, 1e-13);
 }
@@ -263,6 +289,76 @@ static void check_numbers(void)
     gsl_test(!isnan(iso_cost_slope(7, x, y, 10)), "no slope of points that are too near");
 }
 
+/* --- refusals and ends ------------------------------------------------------------------------------------------ */
+
+static void refuse(const iso_scene *s, const iso_cost_options *o, iso_status status, const char *field)
+{
+    iso_cost *c;
+    const iso_status got = iso_cost_measure(ctx, s, o, &c);
+    gsl_test(got != status || c || strcmp(iso_context_about(ctx), field) != 0, "refused about '%s': %s", field,
+             iso_context_message(ctx));
+}
+
+static void check_refusals(void)
+{
+    const iso_cost_options all = iso_cost_defaults();
+    iso_cost_options o = all;
+    iso_scene s = cost_scene(0.7, (const double[]){1, 2, 4}, 0);
+    refuse(&s, &all, ISO_BAD_ARGUMENT, "end");
+    s.end = INFINITY;
+    refuse(&s, &all, ISO_BAD_ARGUMENT, "end");
+    s.end = 10;
+    o.backend = ISO_BACKEND_EXACT;
+    refuse(&s, &o, ISO_BAD_ARGUMENT, "k");
+    o = all;
+    o.tolerance = 0.5;
+    refuse(&s, &o, ISO_BAD_ARGUMENT, "tolerance");
+    o = all;
+    o.backend = ISO_BACKEND_BALL;
+    o.method = iso_method_find("strang");
+    refuse(&s, &o, ISO_BAD_ARGUMENT, "method");
+    s.effects.on[ISO_GRAVITY] = true;
+    GRAVITY_MGB(&s.effects) = 1;
+    GRAVITY_UP(&s.effects)[2] = 1;
+    o.method = NULL;
+    o.backend = ISO_BACKEND_POINT;
+    refuse(&s, &o, ISO_NOT_MAPPED, "gravity");
+    GRAVITY_MGB(&s.effects) = NAN;
+    refuse(&s, &all, ISO_BAD_INPUT, "mgb");
+}
+
+/* A method that cannot get there in time does not hold up the others. */
+static void check_hopeless(void)
+{
+    const iso_scene s = cost_plane();
+    iso_cost_options o = iso_cost_defaults();
+    o.seconds = 0.5;
+    o.method = iso_method_find("strang");
+    iso_cost *c = cost_of(&s, &o);
+    const iso_cost_cell *last = &c->cell[c->cells - 1];
+    gsl_test(last->status != ISO_STOPPED || last->repeats > 0 || !strstr(last->why, "not tried"), "hopeless: %s",
+             last->why);
+    gsl_test(!iso_cost_is_measured(&c->cell[0]) || !c->complete, "what is loose is measured");
+    gsl_test(!(c->seconds < 50), "it ends, after %.2g s for 0.5", c->seconds);
+    iso_cost_free(c);
+}
+
+static void check_stops(void)
+{
+    const iso_scene s = cost_plane();
+    iso_cost_options o = iso_cost_defaults();
+    iso_cost *c = NULL;
+    int left = 0;
+    o.quick = true;
+    iso_context_set_monitor(ctx, some_times, &left);
+    gsl_test(iso_cost_measure(ctx, &s, &o, &c) != ISO_STOPPED || c, "stopped at once, nothing is told");
+    left = 2000;
+    gsl_test(iso_cost_measure(ctx, &s, &o, &c) != ISO_STOPPED || !c || c->complete || c->cells == 0,
+             "stopped later, there is what was measured");
+    iso_cost_free(c);
+    iso_context_set_monitor(ctx, NULL, NULL);
+}
+
 int main(void)
 {
     ctx = iso_context_create();
@@ -271,6 +367,9 @@ int main(void)
     check_broken();
     check_plane();
     check_scenes();
+    check_refusals();
+    check_stops();
+    check_hopeless();
     iso_context_free(ctx);
     return gsl_test_summary();
 }

@@ -2,21 +2,10 @@
  * they must be, a scene is put on a level (iso_scene_on_level), and what cannot be is refused. */
 #include "instrument/chaos/chaos.h"
 #include "instrument/section/section.h"
-#include "io/scene_file.h"
 #include "map/section_impl.h"
 #include "orbit/orbit_impl.h"
 #include "studies.h"
 #include "task/check/check.h"
-
-static iso_scene scene_of(const char *text)
-{
-    iso_scene scene = iso_scene_default();
-    if (iso_scene_load_text(ctx, "test", text, strlen(text), &scene) != ISO_OK) {
-        gsl_test(1, "a scene is refused: %s", iso_context_message(ctx));
-        exit(gsl_test_summary());
-    }
-    return scene;
-}
 
 /* --- rows have the scene's numbers ------------------------------------------------------------------------------ */
 
@@ -27,7 +16,8 @@ typedef struct law {
     int count;
     double first[4];
     size_t rows;
-    laws_worst H, F;
+    int axis, states; /* numbers of a row's states */
+    laws_worst H, F, chart;
     const char *what;
     iso_record *file; /* all that the section wrote */
 } law;
@@ -45,6 +35,11 @@ static iso_status see_row(void *data, int table, const double row[], size_t coun
         if (row[1] == 1) k->first[i] = F; /* each orbit has its own */
         laws_note(&k->F, fabs(F - k->first[i]), 1e-11 * size, &k->problem.p, k->what);
     }
+    double l, x;
+    iso_section_chart(k->axis, point, &l, &x);
+    const double *chart = row + count - k->states - 2;
+    laws_note(&k->chart, fabs(point[3 + k->axis]), 1e-12, &k->problem.p, k->what);
+    laws_note(&k->chart, fabs(remainder(l - chart[0], 2 * M_PI)) + fabs(x - chart[1]), 1e-12, &k->problem.p, k->what);
     k->rows++;
     return ISO_OK;
 }
@@ -125,6 +120,8 @@ static void check_rows(void)
         iso_orbit_free(orbit);
         find_integrals(&k);
         k.what = what;
+        k.axis = iso_section_axis((iso_point_motion){&k.problem.p, k.problem.eps, k.problem.energy});
+        k.states = i % 4 < 2 ? ISO_STATE : 2 * ISO_STATE;
         const iso_sink sink = {.row = see_row, .data = &k};
         iso_record *tables[2] = {NULL, NULL};
         iso_section_options o = iso_section_defaults();
@@ -144,6 +141,7 @@ static void check_rows(void)
     }
     laws_report(&k.H, "rows of a section have the H of the scene");
     laws_report(&k.F, "and keep the additional integral on every level");
+    laws_report(&k.chart, "they lie on the section, and l and x are those of their states");
     iso_random_free(r);
 }
 
@@ -151,7 +149,7 @@ static void check_rows(void)
 
 static iso_chaos_fraction share_of(const char *point, double level, size_t starts, long turns, iso_models models)
 {
-    iso_scene scene = scene_of(point);
+    iso_scene scene = parse(point);
     iso_chaos_options o = iso_chaos_defaults();
     iso_chaos *c = NULL;
     o.starts = starts;
@@ -197,7 +195,7 @@ static void check_on_level(void)
     for (int t = 0; t < 3; t++)
         for (int i = 0; i < 5; i++) {
             const double level = (double[]){-0.01, 0, 0.3, 5, 1e6}[i];
-            iso_scene scene = scene_of(texts[t]);
+            iso_scene scene = parse(texts[t]);
             gsl_test(iso_scene_on_level(ctx, &scene, 0.7) != ISO_OK ||
                          iso_scene_on_level(ctx, &scene, level) != ISO_OK,
                      "scene %d on %g: %s", t, level, iso_context_message(ctx));
@@ -215,7 +213,7 @@ static void check_on_level(void)
 
 static void refuse(const char *text, double level, const char *about, const char *words)
 {
-    iso_scene scene = scene_of(text);
+    iso_scene scene = parse(text);
     gsl_test_int((int)iso_scene_on_level(ctx, &scene, level), ISO_BAD_INPUT, "level %g is refused", level);
     gsl_test(strcmp(iso_context_about(ctx), about) != 0 || !strstr(iso_context_message(ctx), words), "about %s: %s",
              about, iso_context_message(ctx));
@@ -230,7 +228,7 @@ static void check_refusals(void)
            "no direction");
     refuse(BALL "[0, 0.7, 0]}\ntime: {end: 1}\neffects: {field: {linear: [0.1, 0, 0]}}\n", 1, "field", "field");
     refuse(POINT("0.5"), NAN, "level", "no level");
-    iso_scene scene = scene_of(POINT("0.5")); /* E < 0: the circle of l is closed near pi/2 */
+    iso_scene scene = parse(POINT("0.5")); /* E < 0: the circle of l is closed near pi/2 */
     const double at[1][2] = {{1.5, 0.1}};
     iso_section_options o = iso_section_defaults();
     iso_chaos_options chaos = iso_chaos_defaults();

@@ -1,72 +1,20 @@
-/* Periodic orbits (lib/instrument/periodic/periodic.h): the rotations' traces against Hill's equation and the section,
- * orbits against their laws, the search along lines against Newton's method from a grid, k = 1 and -1. */
+/* Periodic orbits (lib/instrument/periodic/periodic.h): orbits against their laws, the search along lines against
+ * Newton's method from a grid, k = 1 and -1. Rotations: test_periodic_levels.c. */
 #define _GNU_SOURCE /* functions of _Float128 */
 #include "map/section.h"
 #include "method/methods_impl.h"
-#include "orbit/crossings.h"
 #include "periodics.h"
-
-/* --- rotations -------------------------------------------------------------------------------------------------- */
-
-/* test_periodic_levels.c has Hill's equation itself. */
-static void check_rotations(void)
-{
-    static const double J[2][3] = {{1.4, 2.1, 3}, {1, 2, 5}}, k[] = {-2, -1, -0.5, 0.5, 1, 2};
-    for (int i = 0; i < 12; i++) {
-        const iso_scene scene = ball_scene(k[i / 2], J[i % 2]);
-        iso_periodic *f = orbits_to(&scene, 0);
-        for (const iso_rotation *r = f->rotation; r < f->rotation + 3; r++) {
-            const double trace = r->half_turn_trace, size = fmax(1, fabs(trace)), (*m)[2] = r->half.value;
-            gsl_test_rel(trace, iso_hill_trace(k[i / 2], J[i % 2], 0, r->axis, NULL), 1e-11,
-                         "k = %g, J3 = %g, axis %d", k[i / 2], J[i % 2][2], r->axis + 1);
-            gsl_test(!(r->error < 1e-12 * size), "error %g", r->error);
-            gsl_test_rel(r->by_section, trace, 1e-12, "axis %d by the section", r->axis + 1);
-            gsl_test((r->half.stability == ISO_STABLE) != (fabs(trace) < 2), "stability");
-            gsl_test((r->half.krein != 0) != (fabs(trace) < 2), "Krein's sign");
-            gsl_test_abs(m[0][0] + m[1][0], trace, 1e-13 * size, "sum of the multipliers");
-            gsl_test_abs(m[0][0] * m[1][0] - m[0][1] * m[1][1], 1, 1e-13 * size, "their product");
-        }
-        iso_periodic_free(f);
-    }
-}
 
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
 
-/* Follows the orbit in doubles, from its point's start, and compares clocks, closure and trace. */
-static void check_by_crossings(const iso_scene *scene, int axis, const iso_periodic_orbit *o)
-{
-    iso_crossings_options how = iso_crossings_defaults();
-    iso_crossing at[ISO_PERIODIC_MOST];
-    iso_crossings *c;
-    size_t done;
-    iso_status status;
-    iso_start start = {.model = ISO_BALL, .eps = NAN};
-    for (int i = 0; i < ISO_STATE; i++) start.y[i] = o->ball[i];
-    const iso_batch_orbit orbit = {&scene->params, &start, NULL};
-    how.deviations = true;
-    how.axis = axis;
-    how.backend = ISO_BACKEND_BALL;
-    how.tolerance = 1e-14;
-    if (iso_crossings_create(ctx, &orbit, 1, &how, &c) != ISO_OK) exit(1);
-    iso_crossings_go(c, NULL, (size_t)o->period, at, NULL, &done, &status);
-    const iso_crossing *end = &at[o->period - 1];
-    const double(*M)[2] = end->slope, size = fabs(M[0][0]) + fabs(M[0][1]) + fabs(M[1][0]) + fabs(M[1][1]) + 1;
-    gsl_test_abs(remainder(end->l - o->l, 2 * acos(-1)), 0, 1e-12 * size, "period %d: l comes back", o->period);
-    gsl_test_abs(end->x, o->x, 1e-12 * size, "period %d: x comes back", o->period);
-    gsl_test_abs(M[0][0] + M[1][1], o->trace, 1e-10 * size * size, "period %d: trace", o->period);
-    for (iso_clock k = 0; k < ISO_CLOCKS; k++)
-        gsl_test_rel(end->clock[k], o->clock[k], 1e-11 * size, "period %d in %s", o->period, iso_clock_name(k));
-    iso_crossings_free(c);
-}
-
-static void check_orbit(const iso_scene *scene, int axis, const iso_periodic_orbit *o)
+/* That both models come back after its clocks: test_periodic_levels.c. */
+static void check_orbit(const iso_periodic_orbit *o)
 {
     gsl_test(!(o->closure <= 1e-14), "closure %g", o->closure);
     gsl_test(!(fabs(o->determinant) <= 1e-12), "determinant 1 %+g", o->determinant);
     gsl_test(!(o->error >= 0 && o->error <= 1e-9 * (1 + fabs(o->trace))), "trace %g +- %g", o->trace, o->error);
     gsl_test(o->copies < 1 || o->copies > 16 || 16 % o->copies != 0, "%d copies", o->copies);
     gsl_test((o->multipliers.stability == ISO_STABLE) != (o->multipliers.krein != 0), "Krein's sign");
-    if (fabs(o->trace) < 1e4) check_by_crossings(scene, axis, o);
 }
 
 /* The derivative over the whole orbit, by the mirror image of its first half, against both halves followed. */
@@ -99,7 +47,7 @@ static void check_orbits(void)
         gsl_test(i < 3 && f->count == 0, "k = %g: there are orbits", k[i]);
         gsl_test(f->lost > 0 || f->unresolved > 0, "k = %g: none is lost", k[i]);
         for (size_t j = 0; j < f->count; j++) {
-            check_orbit(&scene, f->axis, &f->orbit[j]);
+            check_orbit(&f->orbit[j]);
             if (fabs(f->orbit[j].trace) < 1e4) check_mirror(&scene, &f->orbit[j]);
         }
         iso_periodic_free(f);
@@ -284,7 +232,6 @@ static void check_refusals(void)
 int main(void)
 {
     ctx = iso_context_create();
-    check_rotations();
     check_orbits();
     check_both_searches();
     check_tori();

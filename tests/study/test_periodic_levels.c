@@ -87,11 +87,9 @@ static void check_scenes(void)
 {
     static const struct row {
         double k, J[3], energy; /* eps = 1 */
-    } table[] = {{0.5, {1, 2, 5}, 0.4},
-                 {0.5, {1, 2, 5}, -0.03},
-                 {-0.5, {1.4, 2.1, 3}, 0.4},
-                 {1, {1.4, 2.1, 3}, -0.03},
-                 {-1, {1, 2, 5}, 5}};
+    } table[] = {{0.5, {1, 2, 5}, 0.4},     {0.5, {1, 2, 5}, -0.03}, {-0.5, {1.4, 2.1, 3}, 0.4},
+                 {1, {1.4, 2.1, 3}, -0.03}, {-1, {1, 2, 5}, 5},      {-2, {1.4, 2.1, 3}, 0},
+                 {-1, {1.4, 2.1, 3}, 0},    {0.5, {1, 2, 5}, 0},     {2, {1, 2, 5}, 0}};
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         const struct row *t = &table[i];
         const iso_params p = laws_params(t->k, t->J);
@@ -105,6 +103,12 @@ static void check_scenes(void)
             gsl_test_rel(r->half_turn_trace, T, 1e-11, "axis %d, in a scene", a + 1);
             gsl_test_rel(r->by_section, r->half_turn_trace, 1e-12, "axis %d by the section", a + 1);
             gsl_test_rel(s->half_turn_trace, T, 1e-11, "axis %d, eps = 7", a + 1);
+            const double trace = r->half_turn_trace, size = fmax(1, fabs(trace)), (*m)[2] = r->half.value;
+            gsl_test(!(r->error < 1e-12 * size), "error %g", r->error);
+            gsl_test((r->half.stability == ISO_STABLE) != (fabs(trace) < 2), "stability");
+            gsl_test((r->half.krein != 0) != (fabs(trace) < 2), "Krein's sign");
+            gsl_test_abs(m[0][0] + m[1][0], trace, 1e-13 * size, "sum of the multipliers");
+            gsl_test_abs(m[0][0] * m[1][0] - m[0][1] * m[1][1], 1, 1e-13 * size, "their product");
             gsl_test_rel(s->clock[ISO_CLOCK_S] * sqrt(7), r->clock[ISO_CLOCK_S], 1e-12, "its clock s");
         }
         iso_periodic_free(f);

@@ -3,13 +3,9 @@
 #include <limits.h>
 
 #include "instrument/section/section_impl.h"
-#include "io/scene_file.h"
-#include "laws.h"
 #include "map/state.h"
 #include "orbit/orbit_impl.h"
-#include "poisson.h"
-
-static iso_context *ctx;
+#include "studies.h"
 
 enum { MOST = 24000, WIDTH = 40 };
 
@@ -66,15 +62,11 @@ static void keep_progress(void *data, double part)
 
 static kept *run(const char *text, const iso_section_options *o, size_t most)
 {
-    iso_scene scene = iso_scene_default();
+    const iso_scene scene = parse(text);
     kept *k = calloc(1, sizeof *k);
     k->row = calloc(MOST, sizeof *k->row);
     k->most = most;
     const iso_sink sink = {keep_header, keep_row, keep_note, keep_progress, k};
-    if (iso_scene_load_text(ctx, "test", text, strlen(text), &scene) != ISO_OK) {
-        gsl_test(1, "a scene is refused: %s", iso_context_message(ctx));
-        exit(gsl_test_summary());
-    }
     k->status = iso_section_run(ctx, &scene, o, &sink, NULL, &k->result);
     return k;
 }
@@ -133,38 +125,6 @@ static void check_distance(void)
     gsl_test_abs(iso_section_distance(&c, &a), 0.5, 1e-15, "the other way");
 }
 
-/* All orbits have the scene's energy: h of each row's state. */
-static void check_energy(void)
-{
-    static const char *const scenes[] = {FREE("0.5"), FREE("-1"), FREE("-0.3"), FREE("2")};
-    for (int s = 0; s < 4; s++)
-        for (iso_models model = ISO_SHOW_BALL; model <= ISO_SHOW_BOTH; model++) {
-            iso_section_options o = iso_section_defaults();
-            const iso_params p = laws_params((const double[]){0.5, -1, -0.3, 2}[s], (const double[]){1, 2, 5});
-            laws_worst energy = {0}, section = {0}, chart = {0};
-            o.crossings = 5;
-            o.starts = 20;
-            o.models = model;
-            o.shown = ISO_SHOW_BOTH;
-            kept *k = run(scenes[s], &o, MOST);
-            const double h = (0.81 + 2 * 0.09 + 5 * 0.225 * 0.225) / 2;
-            for (size_t i = 0; i < k->rows; i++) {
-                const double *ball = k->row[i] + 7, *point = ball + 6;
-                double l, x;
-                iso_section_chart(k->result.nature.axis, point, &l, &x);
-                laws_note(&energy, fabs(iso_ball_energy(&p, ball) / h - 1), 1e-13, &p, "h");
-                laws_note(&energy, fabs(poisson_hamiltonian(&p, point, NULL) / h - 1), 1e-12, &p, "h of the point");
-                laws_note(&section, fabs(ball[3 + k->result.nature.axis]), 2e-13, &p, "n_a");
-                laws_note(&chart, fabs(l - k->row[i][5]) + fabs(x - k->row[i][6]), 1e-12, &p, "l, x");
-            }
-            gsl_test_int((int)k->columns, 19, "columns with the states of both: %s", k->names);
-            laws_report(&energy, "all crossings have the energy of the scene");
-            laws_report(&section, "all lie on the section");
-            laws_report(&chart, "l and x are those of the states");
-            release(k);
-        }
-}
-
 /* --- both models ------------------------------------------------------------------------------------------------ */
 
 /* k = -1 is integrable: the models stay together. k = 0.5 is not: chaotic orbits part. */
@@ -185,31 +145,6 @@ static void check_both(void)
     gsl_test(r->parted == 0 || r->parted == o.starts + 1 || r->parted_crossing < 5,
              "k = 0.5: %zu part, the first is %zu at %zu", r->parted, r->parted_orbit, r->parted_crossing);
     gsl_test(!(k->result.distance < ISO_SECTION_PARTED), "and others do not");
-    release(k);
-}
-
-/* A group of orbits more or less changes no row: very long orbits make groups of few. */
-static void check_groups(void)
-{
-    iso_section_options o = iso_section_defaults();
-    o.models = ISO_SHOW_BALL;
-    o.starts = 2;
-    o.crossings = 3000;
-    kept *k = run(FREE("-1"), &o, MOST);
-    gsl_test_int((int)k->rows, 9000, "three long orbits");
-    o.crossings = 3008; /* a multiple of the slices, 3000 is none */
-    kept *more = run(FREE("-1"), &o, MOST);
-    int wrong = 0;
-    for (size_t i = 0; i < 3 * 3000; i++)
-        wrong += memcmp(k->row[i], more->row[i / 3000 * 3008 + i % 3000], 7 * sizeof(double)) != 0;
-    gsl_test_int(wrong, 0, "the same crossings among more");
-    release(more);
-    o.crossings = 300000; /* one orbit in a group, in slices that go away one by one; the sink ends it */
-    kept *one = run(FREE("-1"), &o, 9000);
-    gsl_test_int((int)one->status, ISO_FILE_TROUBLE, "the sink's answer");
-    gsl_test_int((int)one->rows, 9000, "rows before");
-    gsl_test_int(memcmp(k->row[2999] + 2, one->row[2999] + 2, 5 * sizeof(double)), 0, "the same crossing 3000");
-    release(one);
     release(k);
 }
 
@@ -318,10 +253,8 @@ int main(void)
 {
     ctx = iso_context_create();
     check_rows();
-    check_energy();
     check_distance();
     check_both();
-    check_groups();
     check_effects();
     check_refusals();
     check_failure();

@@ -1,4 +1,4 @@
-/* Lines of made signals, lib/instrument/frequencies/spectrum.h. */
+/* Lines of made signals, lib/instrument/frequencies/spectrum.c. */
 #include "instrument/frequencies/frequencies_impl.h"
 #include "studies.h"
 

@@ -2,6 +2,7 @@
  * refusals. */
 #include "instrument/separatrix/separatrix.h"
 #include "studies.h"
+#include "study/level.h"
 
 static const double J_thin[3] = {1.4, 2.1, 3}, J_wide[3] = {1, 2, 5};
 
@@ -166,10 +167,12 @@ static void test_refusals(void)
     iso_scene scene = iso_scene_default();
     gsl_test(iso_separatrix_run(ctx, &o, &s) != ISO_BAD_ARGUMENT || s, "no k");
     iso_params_reduced(ctx, half, J_thin, &scene.params);
-    o.k = &half, o.count = 1, o.scene = &scene;
+    double level;
+    o.k = &half, o.count = 1, o.level = &level;
     memcpy(o.J, J_thin, sizeof o.J);
     scene.start = (iso_start){.model = ISO_POINT, .y = {0.8, -0.6, 0, 0.6, 0.8, 0}, .eps = 0.3};
-    if (iso_separatrix_run(ctx, &o, &s) != ISO_OK) gsl_test(1, "a point off H = 0: %s", iso_context_message(ctx));
+    if (iso_level_of_scene(ctx, &scene, "", &level) != ISO_OK || iso_separatrix_run(ctx, &o, &s) != ISO_OK)
+        gsl_test(1, "a point off H = 0: %s", iso_context_message(ctx));
     gsl_test(s && !(s->row->level > 0 && s->row->m > 0 && s->row->m < table[0][2] / 2),
              "it is on its level, %g: m = %g", s ? s->row->level : 0, s ? s->row->m : 0);
     iso_separatrix_free(s);

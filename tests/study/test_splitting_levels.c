@@ -1,11 +1,10 @@
 /* The splitting on every level of the point's energy: m by difference quotients of crossings, 64 against 128 bits,
  * scans against the level. */
 #include "base/math_impl.h"
+#include "crossed.h"
 #include "instrument/separatrix/separatrix.h"
-#include "laws.h"
 #include "map/section.h"
 #include "map/section_impl.h"
-#include "orbit/crossings.h"
 
 static iso_context *ctx;
 
@@ -22,20 +21,14 @@ static void go(const plane *a, int n, const double z[2], double to[2], double sl
 {
     enum { MOST = 60 };
     iso_crossings_options o = iso_crossings_defaults();
-    iso_crossings *c;
     iso_crossing at[MOST];
     iso_start start = {.model = ISO_POINT, .eps = a->motion.eps};
-    iso_status status;
-    size_t done = 0;
     iso_section_point(a->motion, a->axis, a->corner + z[0], z[1], start.y);
     const iso_batch_orbit orbit = {&a->p, &start, NULL};
     o.axis = a->axis, o.tolerance = 1e-14, o.deviations = slope != NULL;
-    if (n > MOST || iso_crossings_create(ctx, &orbit, 1, &o, &c) != ISO_OK) exit(1);
-    iso_crossings_go(c, NULL, (size_t)n, at, NULL, &done, &status);
-    gsl_test(done < (size_t)n, "%d returns: %s", n, iso_context_message(ctx));
+    if (n > MOST || !crossed(ctx, &orbit, &o, (size_t)n, at, NULL)) exit(gsl_test_summary());
     to[0] = remainder(at[n - 1].l - a->corner, 2 * ISO_PI), to[1] = at[n - 1].x;
     if (slope) memcpy(slope, at[n - 1].slope, sizeof at[n - 1].slope);
-    iso_crossings_free(c);
 }
 
 /* dx/du of W^u(O) at u = pi/2: a start `part` along the unstable direction is followed until it gets there. The

@@ -1,11 +1,6 @@
-/* Both backends side by side (iso_compare), and whether a record solves its model (iso_check). */
-#include "orbit/orbit_impl.h"
+/* Both backends side by side (iso_compare). */
 #include "studies.h"
-#include "task/check/check.h"
 #include "task/compare.h"
-#include "task/convert/convert.h"
-
-/* --- compare --------------------------------------------------------------------------------------------------- */
 
 static iso_scene scene_of(double k, const double J[3], double end, double step)
 {
@@ -170,157 +165,10 @@ static void check_compare(void)
     check_numerical_failure();
 }
 
-/* --- check ----------------------------------------------------------------------------------------------------- */
-
-enum { ROWS = 9 };
-
-/* An orbit's record with the columns first ... last of a trajectory, and the clocks before them: t, T for
- * tau, s. */
-static iso_record *record_of(const iso_params *p, const iso_start *start, int first, int last, const char *clocks)
-{
-    iso_orbit_options o = iso_orbit_defaults(start);
-    const char *names[ISO_TRAJECTORY_COLUMNS];
-    int columns[ISO_TRAJECTORY_COLUMNS], width = 0;
-    iso_orbit *orbit;
-    iso_record *record;
-    for (int c = 0; c < ISO_CLOCKS; c++) {
-        o.with_clock[c] = strchr(clocks, "tTs"[c]) != NULL;
-        if (o.with_clock[c]) columns[width++] = c;
-    }
-    for (int c = first; c <= last; c++) columns[width++] = c;
-    for (int c = 0; c < width; c++) names[c] = iso_column_name(columns[c]);
-    o.tolerance = 1e-14;
-    o.shown = first < 9                  ? last > 9 ? ISO_SHOW_BOTH : ISO_SHOW_BALL
-              : start->model == ISO_BALL ? ISO_SHOW_BOTH
-                                         : ISO_SHOW_POINT;
-    must(iso_orbit_create(ctx, p, start, &o, &orbit), "an orbit");
-    must(iso_record_create(ctx, (size_t)width, names, &record), "a record");
-    for (int i = 0; i < ROWS; i++) {
-        iso_sample s;
-        double *row;
-        must(iso_orbit_at(orbit, 0.4 * i, &s), "a sample");
-        must(iso_record_append(ctx, record, &row), "a row");
-        for (int c = 0; c < width; c++) row[c] = iso_sample_column(&s, columns[c]);
-    }
-    if (start->model == ISO_POINT) must(iso_record_set_numbers(ctx, record, "eps", 1, &start->eps), "eps");
-    iso_orbit_free(orbit);
-    return record;
-}
-
-/* Whether the residuals above `bound` are exactly those whose names are in the list, " a, b, ". */
-static void expect(const iso_params *p, const iso_record *record, double bound, const char *list, const char *what)
-{
-    iso_residuals r;
-    char name[64];
-    must(iso_check(ctx, p, record, 1e-14, &r), what);
-    int named = 0;
-    for (int i = 0; i < r.count; i++) {
-        const iso_residual *x = &r.residual[i];
-        snprintf(name, sizeof name, " %s,", x->name);
-        const bool wanted = strstr(list, name) != NULL;
-        named += wanted;
-        gsl_test((x->worst > bound) != wanted, "%s: %s is %.2g in row %zu", what, x->name, x->worst, x->row);
-    }
-    int commas = 0;
-    for (const char *c = list; *c; c++) commas += *c == ',';
-    gsl_test_int(named, commas, "%s: residuals that tell (%s)", what, list);
-}
-
-static void check_good(void)
-{
-    static const double J[3] = {1.4, 2.1, 3.0}, symmetric[3] = {2, 3, 2};
-    static const struct {
-        double k;
-        const double *J;
-        int first, last, residuals; /* |x|, (x,y), energy; the extra integral; flow; clocks; map */
-        const char *clocks;
-    } records[] = {
-        {1, J, 3, 8, 4, ""},      {-1, J, 3, 8, 5, "t"},  {0.5, J, 3, 8, 4, "s"},   {0.75, symmetric, 3, 8, 6, "ts"},
-        {1, J, 9, 14, 4, ""},     {-1, J, 9, 14, 5, "s"}, {-0.3, J, 9, 14, 4, "t"}, {4, J, 9, 14, 5, "Ts"},
-        {1, J, 3, 14, 14, "tTs"}, {0.5, J, 3, 14, 7, ""}};
-    for (size_t i = 0; i < sizeof records / sizeof *records; i++) {
-        const iso_params p = laws_params(records[i].k, records[i].J);
-        const iso_start start = {.model = ISO_BALL, .y = {0.8, 0.5, -0.6, 0.6, 0, 0.8}};
-        iso_record *record = record_of(&p, &start, records[i].first, records[i].last, records[i].clocks);
-        iso_residuals r;
-        must(iso_check(ctx, &p, record, 1e-14, &r), "a good record");
-        gsl_test_int(r.count, records[i].residuals, "k = %g, clocks '%s': residuals", p.k, records[i].clocks);
-        expect(&p, record, 1e-12, "", "a good record");
-        iso_record_free(record);
-    }
-}
-
-/* A record with both models and all clocks, where `count` numbers of row 4 are scaled, or the unit vector of their
- * model is added `along` times: what that raises is the list. */
-static void check_damage(double k, const char *column, int count, double along, const char *list)
-{
-    static const double J[3] = {1.4, 2.1, 3.0};
-    const iso_params p = laws_params(k, J);
-    const iso_start start = {.model = ISO_BALL, .y = {0.8, 0.5, -0.6, 0.6, 0, 0.8}};
-    iso_record *record = record_of(&p, &start, 3, 14, "tTs");
-    double *x = iso_record_row(record, 3) + iso_record_find(record, column);
-    for (int i = 0; i < count; i++) x[i] = along > 0 ? x[i] + along * x[3 + i] : (1 + 1e-7) * x[i];
-    expect(&p, record, 1e-11, list, column);
-    iso_record_free(record);
-}
-
-static void check_damages(void)
-{
-    check_damage(0.75, "n1", 3, 0, " ball |n|, ball flow,");
-    check_damage(0.75, "gamma1", 3, 0, " point |gamma|, point H, point flow, map,");
-    check_damage(0.75, "omega1", 3, 1e-7, " ball omega.n, ball h, ball flow, map,");
-    check_damage(0.75, "M1", 3, 1e-7, " point M.gamma, point flow, map,");
-    check_damage(0.75, "omega1", 3, 0, " ball h, ball flow, clock tau, clock s, map,");
-    check_damage(1, "omega1", 3, 0, " ball h, ball F_plane, ball flow, clock tau, clock s, map,");
-    check_damage(-1, "omega1", 3, 0, " ball h, ball F_shell, ball flow, clock tau, clock s, map,");
-    check_damage(0.75, "M1", 3, 0, " point H, point flow, clock t, clock tau, map,");
-    check_damage(1, "M1", 3, 0, " point H, point F_plane, point flow, clock t, clock tau, map,");
-    check_damage(-1, "M1", 3, 0, " point H, point F_shell, point flow, clock t, clock tau, map,");
-    check_damage(0.75, "s", 1, 0, " clock t, clock tau, clock s, point flow,");
-    check_damage(0.75, "tau", 1, 0, " clock tau,");
-    check_damage(0.75, "t", 1, 0, " clock t, clock tau, clock s, ball flow,");
-}
-
-static void check_off_level(void)
-{
-    static const double J[3] = {1.4, 2.1, 3.0};
-    const iso_params p = laws_params(-1, J);
-    const iso_start start = {.model = ISO_POINT, .y = {0, 0.3, -0.2, 1, 0, 0}, .eps = 2};
-    iso_record *record = record_of(&p, &start, 9, 14, "s");
-    expect(&p, record, 1e-11, "", "a point off the level H = 0");
-    must(iso_record_set(ctx, record, "eps", "2.1"), "a line");
-    expect(&p, record, 1e-6, " point H, point F_shell, point flow,", "another eps");
-    iso_record_free(record);
-}
-
-static void check_bad_records(void)
-{
-    static const double J[3] = {1.4, 2.1, 3.0};
-    const iso_params p = laws_params(0.5, J);
-    const iso_start start = {.model = ISO_BALL, .y = {0.8, 0.5, -0.6, 0.6, 0, 0.8}};
-    iso_residuals r;
-    iso_record *record = record_of(&p, &start, 3, 8, "t");
-    iso_record_row(record, 2)[3] = NAN; /* every number: hard/test_hard_study_numbers.c */
-    gsl_test(iso_check(ctx, &p, record, 1e-13, &r) != ISO_BAD_INPUT || !strstr(iso_context_message(ctx), "row 3"),
-             "NaN: %s", iso_context_message(ctx));
-    iso_record_free(record);
-    const char *const names[] = {"t", "omega1", "omega2", "omega3", "n1", "n2", "n3"};
-    must(iso_record_create(ctx, 7, names, &record), "a record");
-    gsl_test(iso_check(ctx, &p, record, 1e-13, &r) != ISO_BAD_INPUT, "no rows: %s", iso_context_message(ctx));
-    iso_record_free(record);
-    must(iso_record_create(ctx, 6, names, &record), "a record");
-    gsl_test(iso_check(ctx, &p, record, 1e-13, &r) != ISO_BAD_INPUT, "no model: %s", iso_context_message(ctx));
-    iso_record_free(record);
-}
-
 int main(void)
 {
     ctx = iso_context_create();
     check_compare();
-    check_good();
-    check_damages();
-    check_off_level();
-    check_bad_records();
     iso_context_free(ctx);
     exit(gsl_test_summary());
 }

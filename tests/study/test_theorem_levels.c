@@ -118,12 +118,7 @@ static double look_at_odd(const problem *f, double *trace)
 
 static void draw(iso_random *random, problem *f)
 {
-    const double least = iso_random_uniform(random, 0.7, 1.5), up = iso_random_uniform(random, 1.2, 1.7);
-    const double most = up * iso_random_uniform(random, 1.2, 1.6);
-    const bool turn = iso_random_uniform(random, 0, 1) < 0.5;
-    f->J[0] = least * (turn ? most : 1);
-    f->J[1] = least * up;
-    f->J[2] = least * (turn ? 1 : most);
+    draw_between(random, iso_random_uniform(random, 0.7, 1.5), 1.2, 1.6, f->J);
     /* levels on which the whole circle is allowed: E > -V */
     const double lowest = fmin(pow(f->J[0], -f->N), pow(f->J[2], -f->N));
     f->energy = lowest * iso_random_uniform(random, -0.9, 2);

@@ -152,11 +152,8 @@ static double change_of(const problem *f, iso_random *random, double *twist, dou
 /* J2 in the middle, and J2 + K too. */
 static void draw(iso_random *random, problem *f)
 {
-    const double up = iso_random_uniform(random, 1.25, 1.6), most = up * iso_random_uniform(random, 1.25, 1.6);
-    const bool turn = iso_random_uniform(random, 0, 1) < 0.5;
-    f->J[0] = turn ? most : 1;
-    f->J[1] = up;
-    f->J[2] = turn ? 1 : most;
+    draw_between(random, 1, 1.25, 1.6, f->J);
+    const double up = f->J[1], most = fmax(f->J[0], f->J[2]);
     f->K = iso_random_uniform(random, 0.3, 0.8) * (up - 1) * (iso_random_uniform(random, 0, 1) < 0.5 ? 1 : -1);
     if (f->K > 0) f->K *= (most - up) / (up - 1);
 }

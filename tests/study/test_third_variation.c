@@ -191,18 +191,6 @@ static void check(const problem *f, iso_random *random, double change, laws_wors
     }
 }
 
-static void draw(iso_random *random, double J[3])
-{
-    J[1] = exp(iso_random_uniform(random, -0.5, 0.5));
-    J[0] = J[1] * (1.2 + iso_random_uniform(random, 0, 0.6));
-    J[2] = J[1] / (1.2 + iso_random_uniform(random, 0, 0.6));
-    if (iso_random_uniform(random, 0, 1) < 0.5) {
-        const double first = J[0];
-        J[0] = J[2];
-        J[2] = first;
-    }
-}
-
 int main(void)
 {
     static const int odd[] = {3, -3, 5, -5, 1, -1};
@@ -213,7 +201,7 @@ int main(void)
         for (int j = 0; j < 6; j++) {
             laws_worst wrong = {0};
             problem f = {.n = odd[j]};
-            draw(random, f.J);
+            draw_between(random, exp(iso_random_uniform(random, -0.7, 0.3)), 1.2, 1.8, f.J);
             check(&f, random, 1, j < 4 ? &right : &none);
             if (j < 4) check(&f, random, 1.01, &wrong), least = fmin(least, wrong.ratio);
             f.J[1] = f.J[0];

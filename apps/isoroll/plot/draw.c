@@ -179,7 +179,7 @@ static void write_embedded(FILE *f, const char *name)
 static iso_status write_template(iso_context *ctx, FILE *f, const iso_plot_page *page, const char *layout)
 {
     if (!page->template && !embedded_find(picture_files, layout)->name)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "this isoroll has no template '%s' of pictures", layout);
+        return ISO_FAIL_ARGUMENT(ctx, "", "this isoroll has no template '%s' of pictures", layout);
     if (!page->template) return write_embedded(f, layout), ISO_OK;
     FILE *from = fopen(page->template, "re");
     char part[4096];
@@ -189,9 +189,9 @@ static iso_status write_template(iso_context *ctx, FILE *f, const iso_plot_page 
     const iso_status status = ferror(from) ? iso_file_trouble(ctx, "read", page->template) : ISO_OK;
     fclose(from);
     if (status == ISO_OK && all == 0)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "template", "--template '%s' is empty", page->template);
+        return ISO_FAIL_ARGUMENT(ctx, "template", "--template '%s' is empty", page->template);
     if (status != ISO_OK || all <= MOST_TEMPLATE) return status;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "template", "--template '%s' is larger than 1 MB", page->template);
+    return ISO_FAIL_ARGUMENT(ctx, "template", "--template '%s' is larger than 1 MB", page->template);
 }
 
 iso_status plot_draw(iso_context *ctx, const iso_plot_page *page, const iso_picture *picture)
@@ -232,8 +232,8 @@ iso_status plot_read_over(iso_context *ctx, const iso_plot_page *page, iso_recor
         ISO_TRY(iso_table_read(ctx, file, NULL, NULL, &over[i], NULL));
         const char *kind = iso_record_kind(over[i]);
         if (strcmp(kind, "periodic") != 0 && strcmp(kind, "splitting") != 0)
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "over",
-                                    "--over '%s': expected what 'periodic -o' or 'splitting -o' writes", file);
+            return ISO_FAIL_INPUT(ctx, "over", "--over '%s': expected what 'periodic -o' or 'splitting -o' writes",
+                                  file);
         ISO_TRY(iso_record_set(ctx, over[i], "file", file));
     }
     return ISO_OK;

@@ -63,8 +63,7 @@ static iso_status check_regular(iso_context *ctx, const char *path)
 iso_status iso_gnuplot_check_files(iso_context *ctx, const iso_plot_page *page)
 {
     if (!find_format(page->path))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                "'%s': the name of a picture must end in .svg, .png or .pdf", page->path);
+        return ISO_FAIL_ARGUMENT(ctx, "", "'%s': the name of a picture must end in .svg, .png or .pdf", page->path);
     ISO_TRY(check_regular(ctx, page->path));
     return page->script ? check_regular(ctx, page->script) : ISO_OK;
 }

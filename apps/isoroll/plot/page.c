@@ -79,10 +79,10 @@ iso_status iso_plot_check_page(iso_context *ctx, const iso_plot_page *page)
                        : page->template       ? "template"
                                               : iso_plot_section_wish(page);
     if (page->script && strcmp(page->script, "-") == 0)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "script",
-                                "--script -: standard output has no room for it: "
-                                "give the name of a file");
+        return ISO_FAIL_ARGUMENT(ctx, "script",
+                                 "--script -: standard output has no room for it: "
+                                 "give the name of a file");
     if (page->path) return iso_gnuplot_check_files(ctx, page);
     if (!wish) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, wish, "--%s is about a picture: give --plot FILE, too", wish);
+    return ISO_FAIL_ARGUMENT(ctx, wish, "--%s is about a picture: give --plot FILE, too", wish);
 }

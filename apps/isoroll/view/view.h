@@ -5,15 +5,12 @@
  *     view_trajectory.c  a trajectory file; rows_impl.h adds the columns that it lacks
  *     view_section.c     a section file: its crossings, and the first part of each of its orbits
  *     view_orbit.c       what is found out about orbits: integrals, a neighbour, and `chaos`
- *     view_data.c        the head and the tables as JSON
- *     view_write.c       the page: the data and the files of view/
+ *     view_write.c       the head and the tables as JSON, and the page: these and the files of view/
  */
 #ifndef ISOROLL_VIEW_H
 #define ISOROLL_VIEW_H
 
-#include <jansson.h>
-
-#include "parameters.h"
+#include "command.h"
 
 /* Bounds that keep a page below 3 MB. In base64 a number takes 10.7 bytes. */
 enum {
@@ -113,10 +110,6 @@ iso_status view_verdicts(iso_context *ctx, view_page *page, const iso_scene *sce
 iso_status view_add_orbit(iso_context *ctx, view_page *page, iso_record *rows);
 
 /* --- output ----------------------------------------------------------------------------------------------------- */
-
-/* The data of a page: the head, and the tables, with columns of numbers as base64 of little-endian doubles. The caller
- * releases it. If memory is short, parts are missing; json_whole() then says so. */
-json_t *view_data(const view_page *page);
 
 /* Whether this build has what a page needs. Errors: ISO_BAD_ARGUMENT: it was built without three.js. */
 iso_status view_check_build(iso_context *ctx, bool live);

@@ -71,7 +71,7 @@ static void keep_note(void *page, const char *text)
 iso_status view_run(iso_context *ctx, const iso_scene *scene, const double times[], size_t count, view_page *page,
                     iso_record **rows)
 {
-    const iso_sink sink = {.note = keep_note, .progress = progress_told, .data = page};
+    const iso_sink sink = {.note = keep_note, .progress = progress_sink, .data = page};
     const iso_run_options o = {.times = times, .count = count};
     *rows = NULL;
     const iso_status status = iso_run(ctx, scene, &o, &sink, rows, NULL);
@@ -132,21 +132,13 @@ iso_status view_neighbour(iso_context *ctx, view_page *page, const iso_scene *st
 
 /* --- verdicts --------------------------------------------------------------------------------------------------- */
 
-/* How pictures show the orbit with this number: a word. */
-static const char *shade_of(const iso_record *orbits, double number)
-{
-    static const char *const shades[] = {"colour", "grey", "dark"};
-    for (size_t i = 0; orbits && i < iso_record_rows(orbits); i++)
-        if (iso_record_const_row(orbits, i)[0] == number) return shades[(int)iso_record_const_row(orbits, i)[1]];
-    return "";
-}
-
 /* The rows of `chaos` as the table "orbits"; of a section those from the second on are the starts, by their numbers
  * from 1 on. */
 static iso_status keep_verdicts(iso_context *ctx, view_page *page, const iso_record *chaos, const iso_record *section,
                                 const size_t first[], const iso_record *shades)
 {
     static const char *const names[] = {"orbit", "verdict", "exponent", "shade"};
+    static const char *const names_of_shades[] = {"colour", "grey", "dark"}; /* iso_picture_shade */
     const int verdict = iso_record_find(chaos, "verdict"), exponent = iso_record_find(chaos, "ball_exponent_t");
     iso_record *r;
     ISO_TRY(iso_record_create_like(ctx, chaos, 4, names, &r));
@@ -158,7 +150,11 @@ static iso_status keep_verdicts(iso_context *ctx, view_page *page, const iso_rec
         double row[] = {section ? *view_vector(section, first[(size_t)from[0] - 1], "orbit") : 0, 0, from[exponent],
                         0};
         ISO_TRY(iso_record_intern(ctx, r, iso_record_word(chaos, from[verdict]), &row[1]));
-        ISO_TRY(iso_record_intern(ctx, r, shade_of(shades, row[0]), &row[3]));
+        const char *shade = "";
+        for (size_t o = 0; shades && o < iso_record_rows(shades); o++)
+            if (iso_record_const_row(shades, o)[0] == row[0])
+                shade = names_of_shades[(int)iso_record_const_row(shades, o)[1]];
+        ISO_TRY(iso_record_intern(ctx, r, shade, &row[3]));
         ISO_TRY(iso_record_add(ctx, r, 1, row));
     }
     return ISO_OK;

@@ -34,7 +34,7 @@ iso_status certify_exact_read(iso_context *ctx, const iso_scene *scene, const is
 /* Reads a decimal number or a fraction. False: it is none, or its exponent is above 5000. */
 bool certify_rational_read(const char *text, fmpq_t x);
 
-/* The same in balls. */
+/* The same in balls, which come first: iso_balls_init(&ball, offsetof(certify_ball, bits)). */
 typedef struct certify_ball {
     arb_struct J[3], root_J[3], inverse_J[3], K[3]; /* K: of the rotor                    */
     arb_t k, det, kappa, half;                      /* det J; k^2/det J; 1/(2k)           */
@@ -43,8 +43,6 @@ typedef struct certify_ball {
     bool rotor, level;
 } certify_ball;
 
-void certify_ball_init(certify_ball *b, slong bits);
-void certify_ball_clear(certify_ball *b);
 void certify_ball_set(certify_ball *b, const certify_exact *e); /* k and J alone */
 
 /* Sets b, its energies among it, and returns the start of `model` in y, vector first, then the unit vector: n is made
@@ -70,14 +68,14 @@ void certify_map(const certify_ball *b, iso_model_kind from, arb_srcptr y, arb_p
 /* The states centre + S A v, |v_i| <= r_i, at the time `time`: centre, S (powers of 2) and A are exact, and A is about
  * orthogonal. The other clocks are balls. */
 typedef struct certify_set {
-    iso_tape thin_tape, wide_tape;
+    arb_t clock[CERTIFY_CLOCKS], time, h;
     iso_series thin, wide; /* of the centre; of all of the set, with the first variation */
+    iso_tape thin_tape, wide_tape;
     arb_ptr centre;
     arb_mat_t A;
     mag_struct r[CERTIFY_STATE];
     slong shift[CERTIFY_STATE]; /* S_ii = 2^shift */
-    arb_t clock[CERTIFY_CLOCKS], time, h;
-    int direction; /* 1, -1 */
+    int direction;              /* 1, -1 */
 } certify_set;
 
 /* The monitor is asked many times in a step. After it has stopped the work, nothing of the set is valid. */
@@ -110,7 +108,7 @@ double certify_set_lost(const certify_set *s);
 /* --- arb_orbit.c ------------------------------------------------------------------------------------------------- */
 
 /* Closes a stream in memory, passes its text to the sink and frees it. */
-iso_status certify_give(iso_context *ctx, const iso_certify_sink *sink, FILE *to, char **text);
+iso_status certify_pass(iso_context *ctx, const iso_certify_sink *sink, FILE *to, char **text);
 
 /* The line of the names of the columns: three clocks, then the states of these models. */
 void certify_print_columns(FILE *to, iso_models as);

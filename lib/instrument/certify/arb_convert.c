@@ -3,6 +3,7 @@
  * A file that is read is checked as far as its rows allow: n (or gamma) can be a unit vector, and omega (or M)
  * orthogonal to it. The clocks are in the file, and stay.
  */
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,7 +18,7 @@ typedef struct reader {
     iso_model_kind to, from;
     char *line;
     size_t room, number;
-    FILE *head; /* of the result, which is given away when the whole head is known to be good */
+    FILE *head; /* of the result, which is passed on when the whole head is known to be good */
     int digits; /* 0: not yet stated */
     certify_exact exact;
     bool has_k, has_J;
@@ -112,7 +113,7 @@ static iso_status convert_head(reader *r)
     if (!r->head) return iso_context_no_memory(r->ctx, "a head");
     const iso_status status = read_head(r);
     certify_print_columns(r->head, (iso_models)r->to);
-    if (status == ISO_OK) return certify_give(r->ctx, r->sink, r->head, &text);
+    if (status == ISO_OK) return certify_pass(r->ctx, r->sink, r->head, &text);
     fclose(r->head);
     free(text);
     return status;
@@ -130,13 +131,13 @@ static iso_status read_cell(const reader *r, char *at, fmpq_t x)
 
 static iso_status read_row(reader *r, arb_ptr x)
 {
-    fmpq_t middle, radius;
-    arb_t error;
+    ISO_BALLS(error);
+    fmpq_t number;
     char **cell = malloc((size_t)r->columns * sizeof *cell), *at = r->line;
     int found = 0;
     iso_status status = ISO_OK;
     if (!cell) return iso_context_no_memory(r->ctx, "a row");
-    fmpq_init(middle), fmpq_init(radius), arb_init(error);
+    fmpq_init(number);
     for (; at; found++) {
         if (found < r->columns) cell[found] = at;
         at = strchr(at, ',');
@@ -146,37 +147,28 @@ static iso_status read_row(reader *r, arb_ptr x)
     for (int i = 0; i < ISO_CLOCKS + CERTIFY_STATE && status == ISO_OK; i++) {
         const int c = r->at[i];
         if (c + 1 == r->columns) status = fail(r, NULL, "expected a radius behind each number");
-        if (status == ISO_OK) status = read_cell(r, cell[c], middle);
-        if (status == ISO_OK) status = read_cell(r, cell[c + 1], radius);
-        if (status == ISO_OK && fmpq_sgn(radius) < 0) status = fail(r, cell[c + 1], "expected a radius >= 0");
-        arb_set_fmpq(x + i, middle, r->ball.bits);
-        arb_set_fmpq(error, radius, 64);
+        if (status == ISO_OK) status = read_cell(r, cell[c], number);
+        if (status == ISO_OK) arb_set_fmpq(x + i, number, r->ball.bits);
+        if (status == ISO_OK) status = read_cell(r, cell[c + 1], number);
+        if (status == ISO_OK && fmpq_sgn(number) < 0) status = fail(r, cell[c + 1], "expected a radius >= 0");
+        arb_set_fmpq(error, number, 64);
         arb_add_error(x + i, error);
     }
     free(cell);
-    fmpq_clear(middle), fmpq_clear(radius), arb_clear(error);
+    fmpq_clear(number);
     return status;
-}
-
-/* Whether the unit vector can be one, and the other orthogonal to it. */
-static bool is_state(const reader *r, arb_srcptr y)
-{
-    arb_t x;
-    arb_init(x);
-    arb_dot(x, NULL, 0, y, 1, y + 3, 1, 3, r->ball.bits);
-    bool good = arb_contains_zero(x);
-    arb_dot(x, NULL, 0, y + 3, 1, y + 3, 1, 3, r->ball.bits);
-    good = good && arb_contains_si(x, 1);
-    arb_clear(x);
-    return good;
 }
 
 static iso_status convert_row(reader *r, arb_ptr x)
 {
     char *text = NULL;
     size_t length = 0;
+    ISO_BALLS(along, square);
     ISO_TRY(read_row(r, x));
-    if (!is_state(r, x + ISO_CLOCKS))
+    arb_srcptr y = x + ISO_CLOCKS, unit = y + 3;
+    arb_dot(along, NULL, 0, y, 1, unit, 1, 3, r->ball.bits);
+    arb_dot(square, NULL, 0, unit, 1, unit, 1, 3, r->ball.bits);
+    if (!(arb_contains_zero(along) && arb_contains_si(square, 1)))
         return fail(r, NULL, "this is no state: no unit vector, or the other vector is not orthogonal to it");
     certify_map(&r->ball, r->from, x + ISO_CLOCKS, x + ISO_CLOCKS);
     for (int i = 0; i < CERTIFY_STATE; i++)
@@ -184,24 +176,7 @@ static iso_status convert_row(reader *r, arb_ptr x)
     FILE *to = open_memstream(&text, &length);
     if (!to) return iso_context_no_memory(r->ctx, "a row");
     certify_write_row(&r->ball, x, r->to, x + ISO_CLOCKS, (iso_models)r->to, r->digits, to);
-    return certify_give(r->ctx, r->sink, to, &text);
-}
-
-static iso_status convert(reader *r, size_t *rows)
-{
-    ISO_TRY(convert_head(r));
-    arb_ptr x = _arb_vec_init(ISO_CLOCKS + CERTIFY_STATE);
-    iso_status status = ISO_OK;
-    certify_ball_init(&r->ball, (slong)(3.4 * r->digits) + 80);
-    certify_ball_set(&r->ball, &r->exact);
-    while (status == ISO_OK && next_line(r)) {
-        if (!iso_context_goes_on(r->ctx)) status = iso_context_stopped(r->ctx);
-        if (status == ISO_OK) status = convert_row(r, x);
-        *rows += status == ISO_OK;
-    }
-    certify_ball_clear(&r->ball);
-    _arb_vec_clear(x, ISO_CLOCKS + CERTIFY_STATE);
-    return status;
+    return certify_pass(r->ctx, r->sink, to, &text);
 }
 
 iso_status iso_certify_convert(iso_context *ctx, FILE *file, const char *name, iso_model_kind to,
@@ -210,8 +185,17 @@ iso_status iso_certify_convert(iso_context *ctx, FILE *file, const char *name, i
     reader r = {.ctx = ctx, .file = file, .name = name, .sink = sink, .to = to};
     *rows = 0;
     r.from = to == ISO_BALL ? ISO_POINT : ISO_BALL;
+    ISO_BALL_ROW(x, ISO_CLOCKS + CERTIFY_STATE);
     certify_exact_init(&r.exact);
-    const iso_status status = convert(&r, rows);
+    iso_status status = convert_head(&r);
+    iso_balls_init(&r.ball, offsetof(certify_ball, bits));
+    r.ball.bits = (slong)(3.4 * r.digits) + 80;
+    if (status == ISO_OK) certify_ball_set(&r.ball, &r.exact);
+    while (status == ISO_OK && next_line(&r)) {
+        status = iso_context_goes_on(ctx) ? convert_row(&r, x) : iso_context_stopped(ctx);
+        *rows += status == ISO_OK;
+    }
+    iso_balls_clear(&r.ball, offsetof(certify_ball, bits));
     certify_exact_clear(&r.exact);
     free(r.line);
     return status;

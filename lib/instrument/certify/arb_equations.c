@@ -32,47 +32,37 @@ static int number_over(const writer *w, const arb_t top, int below)
     return iso_tape_quotient(w->f, iso_tape_constant(w->f, top), below);
 }
 
-/* 2 c/(g P^2) n x J^-1 n, added to c */
-static void add_level(const writer *w, int g, int P, const int u[3], int torque[3])
-{
-    int across[3];
-    arb_t twice;
-    arb_init(twice);
-    arb_mul_2exp_si(twice, w->b->c, 1);
-    iso_tape_cross(w->f, w->unit, u, across);
-    const int square = iso_tape_product(w->f, P, P);
-    add_scaled(w, number_over(w, twice, iso_tape_product(w->f, g, square)), across, torque);
-    arb_clear(twice);
-}
-
 static void write_ball(writer *w)
 {
     const certify_ball *b = w->b;
     iso_tape *f = w->f;
-    int u[3], L[3], torque[3], turn[3];
-    arb_t minus;
-    arb_init(minus);
+    int u[3], L[3], torque[3], turn[3], across[3];
+    ISO_BALLS(minus, twice_c);
     iso_tape_diagonal(f, b->inverse_J, w->unit, u);
     const int g = iso_tape_dot(f, w->unit, u), P = iso_tape_power(f, g, b->half), g_P = iso_tape_product(f, g, P);
     iso_tape_diagonal(f, b->J, w->vector, L);
     for (int i = 0; i < 3 && b->rotor; i++) L[i] = iso_tape_sum(f, L[i], iso_tape_constant(f, b->K + i));
     iso_tape_cross(f, L, w->vector, torque);
-    if (b->level) add_level(w, g, P, u, torque);
+    if (b->level) {
+        arb_mul_2exp_si(twice_c, b->c, 1);
+        iso_tape_cross(f, w->unit, u, across);
+        const int square = iso_tape_product(f, P, P);
+        add_scaled(w, number_over(w, twice_c, iso_tape_product(f, g, square)), across, torque);
+    }
     arb_set_si(minus, -1);
-    add_scaled(w, iso_tape_scaled(w->f, minus, iso_tape_quotient(f, iso_tape_dot(f, torque, u), g)), w->unit, torque);
+    add_scaled(w, iso_tape_scaled(f, minus, iso_tape_quotient(f, iso_tape_dot(f, torque, u), g)), w->unit, torque);
     iso_tape_diagonal(f, b->inverse_J, torque, w->vector_rate);
     iso_tape_cross(f, w->unit, w->vector, turn);
-    for (int i = 0; i < 3; i++) w->unit_rate[i] = iso_tape_scaled(w->f, b->k, turn[i]);
+    for (int i = 0; i < 3; i++) w->unit_rate[i] = iso_tape_scaled(f, b->k, turn[i]);
     w->rate_of[ISO_CLOCK_TAU] = iso_tape_quotient(f, P, g);
     w->rate_of[ISO_CLOCK_S] = number_over(w, b->kappa, g_P);
-    arb_clear(minus);
 }
 
 /* B gamma', B over q Q, added to force */
 static void add_field(const writer *w, int q_Q, const int turn[3], int force[3])
 {
     const certify_ball *b = w->b;
-    arb_ptr factor = _arb_vec_init(2), x = factor + 1;
+    ISO_BALLS(factor, x);
     int along = -1;
     arb_sqrt(factor, b->det, b->bits);
     arb_div(factor, factor, b->k, b->bits);
@@ -84,7 +74,6 @@ static void add_field(const writer *w, int q_Q, const int turn[3], int force[3])
         along = i == 0 ? part : iso_tape_sum(w->f, along, part);
     }
     add_scaled(w, iso_tape_quotient(w->f, along, q_Q), turn, force);
-    _arb_vec_clear(factor, 2);
 }
 
 static void write_point(writer *w)
@@ -92,8 +81,7 @@ static void write_point(writer *w)
     const certify_ball *b = w->b;
     iso_tape *f = w->f;
     int u[3], across[3];
-    arb_t x;
-    arb_init(x);
+    ISO_BALLS(x);
     iso_tape_diagonal(f, b->J, w->unit, u);
     const int q = iso_tape_dot(f, w->unit, u), Q = iso_tape_power(f, q, b->half), q_Q = iso_tape_product(f, q, Q);
     iso_tape_cross(f, w->unit, u, across);
@@ -106,7 +94,6 @@ static void write_point(writer *w)
     arb_inv(x, b->kappa, b->bits);
     w->rate_of[ISO_CLOCK_T] = number_over(w, x, q_Q);
     w->rate_of[ISO_CLOCK_TAU] = number_over(w, x, iso_tape_product(f, Q, Q));
-    arb_clear(x);
 }
 
 void certify_equations(const certify_ball *b, iso_model_kind model, iso_clock clock, iso_tape *f)
@@ -117,13 +104,9 @@ void certify_equations(const certify_ball *b, iso_model_kind model, iso_clock cl
     for (int i = 0; i < 3; i++) w.vector[i] = iso_tape_state(f);
     for (int i = 0; i < 3; i++) w.unit[i] = iso_tape_state(f);
     for (int i = 0; i < CERTIFY_CLOCKS; i++) w.clock[i] = iso_tape_state(f);
-    if (model == ISO_BALL)
-        write_ball(&w);
-    else
-        write_point(&w);
+    (model == ISO_BALL ? write_ball : write_point)(&w);
     if (clock != own) { /* 1/pace of that clock, and its own clock has the pace */
-        arb_t one;
-        arb_init(one);
+        ISO_BALLS(one);
         arb_one(one);
         const int pace = number_over(&w, one, w.rate_of[clock]);
         for (int i = 0; i < 3; i++)
@@ -131,7 +114,6 @@ void certify_equations(const certify_ball *b, iso_model_kind model, iso_clock cl
             w.unit_rate[i] = iso_tape_product(f, w.unit_rate[i], pace);
         w.rate_of[ISO_CLOCK_TAU] = iso_tape_product(f, w.rate_of[ISO_CLOCK_TAU], pace);
         w.rate_of[own] = pace;
-        arb_clear(one);
     }
     for (int i = 0; i < 3; i++) iso_tape_rate(f, w.vector[i], w.vector_rate[i]);
     for (int i = 0; i < 3; i++) iso_tape_rate(f, w.unit[i], w.unit_rate[i]);
@@ -142,17 +124,14 @@ void certify_equations(const certify_ball *b, iso_model_kind model, iso_clock cl
 
 /* --- the map ----------------------------------------------------------------------------------------------------- */
 
-/* The sum of weight_i u_i^2. */
 void certify_weigh(const certify_ball *b, const arb_struct weight[3], arb_srcptr u, arb_t sum)
 {
-    arb_t x;
-    arb_init(x);
+    ISO_BALLS(x);
     arb_zero(sum);
     for (int i = 0; i < 3; i++) {
         arb_mul(x, u + i, u + i, b->bits);
         arb_addmul(sum, x, weight + i, b->bits);
     }
-    arb_clear(x);
 }
 
 /* N = sqrt(det J)/k g^(1/(2k));  M = N J^(1/2) w, gamma = J^(-1/2) n/sqrt(g);  back: w = J^(-1/2) M/N,
@@ -160,7 +139,7 @@ void certify_weigh(const certify_ball *b, const arb_struct weight[3], arb_srcptr
 void certify_map(const certify_ball *b, iso_model_kind from, arb_srcptr y, arb_ptr to)
 {
     const bool ball = from == ISO_BALL;
-    arb_ptr g = _arb_vec_init(3), N = g + 1, root = g + 2;
+    ISO_BALLS(g, N, root);
     certify_weigh(b, ball ? b->inverse_J : b->J, y + 3, g);
     arb_rsqrt(root, g, b->bits);
     if (!ball) arb_inv(g, g, b->bits);
@@ -180,5 +159,4 @@ void certify_map(const certify_ball *b, iso_model_kind from, arb_srcptr y, arb_p
             arb_mul(to + 3 + i, to + 3 + i, b->root_J + i, b->bits);
         }
     }
-    _arb_vec_clear(g, 3);
 }

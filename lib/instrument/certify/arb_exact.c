@@ -128,18 +128,6 @@ iso_status certify_exact_read(iso_context *ctx, const iso_scene *scene, const is
 
 /* --- in balls ---------------------------------------------------------------------------------------------------- */
 
-void certify_ball_init(certify_ball *b, slong bits)
-{
-    iso_balls_init(b, offsetof(certify_ball, bits));
-    b->bits = bits;
-    b->rotor = b->level = false;
-}
-
-void certify_ball_clear(certify_ball *b)
-{
-    iso_balls_clear(b, offsetof(certify_ball, bits));
-}
-
 void certify_ball_set(certify_ball *b, const certify_exact *e)
 {
     arb_set_fmpq(b->k, e->k, b->bits);
@@ -156,26 +144,10 @@ void certify_ball_set(certify_ball *b, const certify_exact *e)
     arb_inv(b->half, b->half, b->bits);
 }
 
-/* The unit vector, and what is left of the other one. */
-static void set_start(const certify_exact *e, slong bits, arb_ptr y)
-{
-    arb_ptr length = _arb_vec_init(2), along = length + 1;
-    for (int i = 0; i < 3; i++) arb_set_fmpq(y + i, e->vector[i], bits), arb_set_fmpq(y + 3 + i, e->unit[i], bits);
-    arb_dot(length, NULL, 0, y + 3, 1, y + 3, 1, 3, bits);
-    arb_dot(along, NULL, 0, y, 1, y + 3, 1, 3, bits);
-    arb_div(along, along, length, bits);
-    arb_rsqrt(length, length, bits);
-    for (int i = 0; i < 3; i++) {
-        arb_submul(y + i, along, y + 3 + i, bits);
-        arb_mul(y + 3 + i, y + 3 + i, length, bits);
-    }
-    _arb_vec_clear(length, 2);
-}
-
 /* h = (w, J w)/2 - c g^(-1/k),  g = (n, J^-1 n) */
 static void energy_of_ball(const certify_ball *b, arb_srcptr y, arb_t h)
 {
-    arb_ptr g = _arb_vec_init(2), x = g + 1;
+    ISO_BALLS(g, x);
     certify_weigh(b, b->inverse_J, y + 3, g);
     certify_weigh(b, b->J, y, h);
     arb_mul_2exp_si(h, h, -1);
@@ -183,14 +155,13 @@ static void energy_of_ball(const certify_ball *b, arb_srcptr y, arb_t h)
     arb_neg(x, x);
     arb_pow(x, g, x, b->bits);
     if (b->level) arb_submul(h, b->c, x, b->bits);
-    _arb_vec_clear(g, 2);
 }
 
 /* eps = q^(1/k) M^2/2 on the level H = 0; with another eps, H = M^2/2 - eps q^(-1/k), and c = kappa H. h = kappa
  * eps. */
 static void energies_of_point(const certify_exact *e, certify_ball *b, arb_srcptr y)
 {
-    arb_ptr q = _arb_vec_init(3), kinetic = q + 1, x = q + 2;
+    ISO_BALLS(q, kinetic, x);
     certify_weigh(b, b->J, y + 3, q);
     for (int i = 0; i < 3; i++) arb_addmul(kinetic, y + i, y + i, b->bits);
     arb_mul_2exp_si(kinetic, kinetic, -1);
@@ -204,21 +175,30 @@ static void energies_of_point(const certify_exact *e, certify_ball *b, arb_srcpt
         arb_mul(b->c, b->c, b->kappa, b->bits);
     }
     arb_mul(b->h, b->kappa, b->eps, b->bits);
-    _arb_vec_clear(q, 3);
 }
 
 void certify_start(const certify_exact *e, iso_model_kind model, certify_ball *b, arb_ptr y)
 {
+    const slong bits = b->bits;
+    ISO_BALLS(length, along);
     certify_ball_set(b, e);
     b->rotor = e->rotor, b->level = e->level;
-    for (int i = 0; i < 3; i++) arb_set_fmpq(b->K + i, e->K[i], b->bits);
-    arb_set_fmpq(b->c, e->c, b->bits);
-    set_start(e, b->bits, y);
+    for (int i = 0; i < 3; i++) arb_set_fmpq(b->K + i, e->K[i], bits);
+    arb_set_fmpq(b->c, e->c, bits);
+    for (int i = 0; i < 3; i++) arb_set_fmpq(y + i, e->vector[i], bits), arb_set_fmpq(y + 3 + i, e->unit[i], bits);
+    arb_dot(length, NULL, 0, y + 3, 1, y + 3, 1, 3, bits);
+    arb_dot(along, NULL, 0, y, 1, y + 3, 1, 3, bits);
+    arb_div(along, along, length, bits);
+    arb_rsqrt(length, length, bits);
+    for (int i = 0; i < 3; i++) {
+        arb_submul(y + i, along, y + 3 + i, bits);
+        arb_mul(y + 3 + i, y + 3 + i, length, bits);
+    }
     if (e->model == ISO_POINT) {
         energies_of_point(e, b, y);
     } else {
         energy_of_ball(b, y, b->h);
-        arb_div(b->eps, b->h, b->kappa, b->bits);
+        arb_div(b->eps, b->h, b->kappa, bits);
     }
     if (model != e->model) certify_map(b, e->model, y, y);
 }

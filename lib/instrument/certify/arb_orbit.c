@@ -1,9 +1,10 @@
 /* arb_orbit.c - the rows of a certified orbit (certify_impl.h).
  *
  * The set is carried with numbers of more digits than the rows are to hold. If it grows too wide before the last row,
- * all is done again with more; rows that were given away stay as they are.
+ * all is done again with more; rows that were passed on stay as they are.
  */
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,7 +40,7 @@ static iso_models shown(const work *w)
     return scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
 }
 
-iso_status certify_give(iso_context *ctx, const iso_certify_sink *sink, FILE *to, char **text)
+iso_status certify_pass(iso_context *ctx, const iso_certify_sink *sink, FILE *to, char **text)
 {
     const bool whole = fclose(to) == 0 && *text;
     const iso_status status = whole ? sink->line(sink->data, *text) : iso_context_no_memory(ctx, "a row");
@@ -98,7 +99,7 @@ static iso_status write_head(work *w)
     fprintf(to, "# backend: %s\n# digits: %d\n", iso_model_kind_name((int)w->p->backend), w->p->options.digits);
     fprintf(to, "# isoroll: %s\n", ISO_VERSION);
     certify_print_columns(to, shown(w));
-    return certify_give(w->ctx, w->sink, to, &text);
+    return certify_pass(w->ctx, w->sink, to, &text);
 }
 
 /* --- failures ---------------------------------------------------------------------------------------------------- */
@@ -148,7 +149,7 @@ static bool print_group(FILE *to, arb_srcptr x, int count, int digits)
 bool certify_write_row(const certify_ball *b, arb_srcptr clock, iso_model_kind model, arb_srcptr y, iso_models as,
                        int digits, FILE *to)
 {
-    arb_ptr other = _arb_vec_init(CERTIFY_STATE);
+    ISO_BALL_ROW(state, CERTIFY_STATE);
     bool holds = true;
     for (int c = 0; c < ISO_CLOCKS; c++) {
         if (c > 0) fputc(',', to);
@@ -156,17 +157,14 @@ bool certify_write_row(const certify_ball *b, arb_srcptr clock, iso_model_kind m
     }
     for (int m = ISO_BALL; m <= ISO_POINT; m++) {
         if (as != ISO_SHOW_BOTH && (int)as != m) continue;
-        if (m == (int)model)
-            _arb_vec_set(other, y, CERTIFY_STATE);
-        else
-            certify_map(b, model, y, other);
+        _arb_vec_set(state, y, CERTIFY_STATE);
+        if (m != (int)model) certify_map(b, model, state, state);
         for (int vector = 0; vector < CERTIFY_STATE; vector += 3) {
             fputc(',', to);
-            holds = print_group(to, other + vector, 3, digits) && holds;
+            holds = print_group(to, state + vector, 3, digits) && holds;
         }
     }
     fputc('\n', to);
-    _arb_vec_clear(other, CERTIFY_STATE);
     return holds;
 }
 
@@ -202,50 +200,41 @@ static bool in_step(void *data)
 /* The next row, if its time is in this step. *status: ISO_NUMERICAL if it holds too few digits. */
 static bool next_row(work *w, iso_status *status)
 {
-    fmpq_t t;
     if (w->result->rows == w->result->asked) return false;
-    arb_ptr y = _arb_vec_init(CERTIFY_ALL), clock = _arb_vec_init(ISO_CLOCKS);
+    ISO_BALL_ROW(y, CERTIFY_ALL);
+    ISO_BALL_ROW(clock, ISO_CLOCKS);
+    fmpq_t t;
     fmpq_init(t);
     time_of(w, w->result->rows, t);
     arb_set_fmpq(clock + w->clock, t, w->ball.bits);
-    bool inside = certify_set_at(&w->set, clock + w->clock, y);
+    fmpq_clear(t);
+    const bool inside = certify_set_at(&w->set, clock + w->clock, y);
     for (int c = 0, i = CERTIFY_STATE; c < ISO_CLOCKS; c++)
         if (c != (int)w->clock) arb_set(clock + c, y + i++);
-    if (!in_step(w)) inside = false, *status = iso_context_stopped(w->ctx);
-    if (inside) {
-        char *text = NULL;
-        size_t length = 0;
-        FILE *to = open_memstream(&text, &length);
-        if (!to)
-            *status = iso_context_no_memory(w->ctx, "a row");
-        else if (certify_write_row(&w->ball, clock, w->p->backend, y, shown(w), w->p->options.digits, to))
-            *status = certify_give(w->ctx, w->sink, to, &text);
-        else
-            fclose(to), free(text), *status = too_wide(w);
-        w->result->rows += *status == ISO_OK;
-    }
-    fmpq_clear(t);
-    _arb_vec_clear(y, CERTIFY_ALL), _arb_vec_clear(clock, ISO_CLOCKS);
-    return inside && *status == ISO_OK;
+    if (!in_step(w)) return *status = iso_context_stopped(w->ctx), false;
+    if (!inside) return false;
+    char *text = NULL;
+    size_t length = 0;
+    FILE *to = open_memstream(&text, &length);
+    if (!to)
+        *status = iso_context_no_memory(w->ctx, "a row");
+    else if (certify_write_row(&w->ball, clock, w->p->backend, y, shown(w), w->p->options.digits, to))
+        *status = certify_pass(w->ctx, w->sink, to, &text);
+    else
+        fclose(to), free(text), *status = too_wide(w);
+    w->result->rows += *status == ISO_OK;
+    return *status == ISO_OK;
 }
 
 /* --- an attempt -------------------------------------------------------------------------------------------------- */
 
-/* Whether the end can be reached at the pace so far. The work of a step is about the cube of the digits. */
-static iso_status check_work(const work *w, double end)
-{
-    const double reached = time_now(w), step = pow(w->result->work_digits, 3), steps = (double)w->result->steps;
-    const double needed = steps * fmax(end / reached, 1);
-    const bool measured = steps >= ISO_PACE_STEPS && steps * step >= ISO_PACE_WORK;
-    if ((measured ? needed : steps) * step <= ISO_MOST_CERTIFIED_WORK) return ISO_OK;
-    return too_long(w, needed);
-}
-
-/* Steps until all rows are there. *reached: the time to which it came. */
+/* Steps until all rows are there, if the end can be reached at the pace so far. The work of a step is about the cube of
+ * the digits. *reached: the time to which it came. */
 static iso_status follow(work *w, double end, double *reached)
 {
+    const double step = pow(w->result->work_digits, 3);
     iso_status status = ISO_OK;
-    while (status == ISO_OK && w->result->rows < w->result->asked) {
+    while (w->result->rows < w->result->asked) {
         *reached = time_now(w);
         if (!in_step(w)) return iso_context_stopped(w->ctx);
         switch (certify_set_expand(&w->set, fmax(1.1 * (end - *reached), 1e-3 * end + 1e-300))) {
@@ -256,17 +245,21 @@ static iso_status follow(work *w, double end, double *reached)
         }
         while (next_row(w, &status)) continue;
         certify_set_move(&w->set);
-        w->result->steps++;
-        if (status == ISO_OK && w->result->rows < w->result->asked) status = check_work(w, end);
+        const double steps = (double)++w->result->steps, needed = steps * fmax(end / time_now(w), 1);
+        const bool measured = steps >= ISO_PACE_STEPS && steps * step >= ISO_PACE_WORK;
+        ISO_TRY(status);
+        if (w->result->rows < w->result->asked && !((measured ? needed : steps) * step <= ISO_MOST_CERTIFIED_WORK))
+            return too_long(w, needed);
     }
-    return status;
+    return ISO_OK;
 }
 
 static iso_status attempt(work *w, int work_digits, double *reached, double *lost)
 {
     const double end = fabs(w->p->scene->end);
-    certify_ball_init(&w->ball, (slong)(DIGIT_BITS * work_digits) + 8);
-    arb_ptr start = _arb_vec_init(CERTIFY_STATE);
+    iso_balls_init(&w->ball, offsetof(certify_ball, bits));
+    w->ball.bits = (slong)(DIGIT_BITS * work_digits) + 8;
+    ISO_BALL_ROW(start, CERTIFY_STATE);
     certify_start(&w->exact, w->p->backend, &w->ball, start);
     certify_set_init(&w->set, &w->ball, w->p->backend, w->clock, start, w->p->scene->end < 0 ? -1 : 1,
                      (iso_monitor){in_step, w});
@@ -278,8 +271,7 @@ static iso_status attempt(work *w, int work_digits, double *reached, double *los
     if (status == ISO_OK) status = follow(w, end, reached);
     *lost = certify_set_lost(&w->set);
     certify_set_clear(&w->set);
-    certify_ball_clear(&w->ball);
-    _arb_vec_clear(start, CERTIFY_STATE);
+    iso_balls_clear(&w->ball, offsetof(certify_ball, bits));
     return status;
 }
 

@@ -16,6 +16,7 @@
  */
 #include <float.h>
 #include <math.h>
+#include <stddef.h>
 
 #include "instrument/certify/arb_certify_impl.h"
 
@@ -59,8 +60,7 @@ void certify_set_init(certify_set *s, const certify_ball *b, iso_model_kind mode
     arb_mat_init(s->A, CERTIFY_STATE, CERTIFY_STATE);
     arb_mat_one(s->A);
     for (int i = 0; i < CERTIFY_STATE; i++) mag_init(s->r + i);
-    for (int i = 0; i < CERTIFY_CLOCKS; i++) arb_init(s->clock[i]);
-    arb_init(s->time), arb_init(s->h);
+    iso_balls_init(s, offsetof(certify_set, thin));
     s->direction = direction;
     _arb_vec_set(s->centre, start, CERTIFY_STATE);
     for (int i = 0; i < CERTIFY_STATE; i++) s->shift[i] = shift_of(start + (i < 3 ? 0 : 3));
@@ -74,31 +74,39 @@ void certify_set_clear(certify_set *s)
     _arb_vec_clear(s->centre, CERTIFY_ALL);
     arb_mat_clear(s->A);
     for (int i = 0; i < CERTIFY_STATE; i++) mag_clear(s->r + i);
-    for (int i = 0; i < CERTIFY_CLOCKS; i++) arb_clear(s->clock[i]);
-    arb_clear(s->time), arb_clear(s->h);
+    iso_balls_clear(s, offsetof(certify_set, thin));
 }
 
 /* --- a step ------------------------------------------------------------------------------------------------------ */
+
+/* x += the sum of |row i of M| r */
+static void add_row(const arb_mat_t M, int i, mag_srcptr r, mag_t x)
+{
+    mag_t size;
+    mag_init(size);
+    for (int j = 0; j < CERTIFY_STATE; j++) {
+        arb_get_mag(size, arb_mat_entry(M, i, j));
+        mag_addmul(x, size, r + j);
+    }
+    mag_clear(size);
+}
 
 /* The set as a box, with the derivative 1. False: stopped. */
 static bool expand_wide(certify_set *s)
 {
     arb_ptr x = _arb_vec_init(s->wide_tape.states);
-    mag_t size, part;
-    mag_init(size), mag_init(part);
+    mag_t size;
+    mag_init(size);
     for (int i = 0; i < CERTIFY_STATE; i++) {
         mag_zero(size);
-        for (int j = 0; j < CERTIFY_STATE; j++) {
-            arb_get_mag(part, arb_mat_entry(s->A, i, j));
-            mag_addmul(size, part, s->r + j);
-        }
+        add_row(s->A, i, s->r, size);
         mag_mul_2exp_si(size, size, s->shift[i]);
         arb_set_round(x + i, s->centre + i, WIDE_BITS);
         arb_add_error_mag(x + i, size);
         arb_one(x + CERTIFY_ALL + CERTIFY_STATE * i + i);
     }
     const bool expanded = iso_series_expand(&s->wide, x);
-    mag_clear(size), mag_clear(part);
+    mag_clear(size);
     _arb_vec_clear(x, s->wide_tape.states);
     return expanded;
 }
@@ -146,7 +154,7 @@ double certify_set_done(const certify_set *s)
 /* M = S^-1 D S A at t, and in the rows behind, D S A of the clocks. */
 static void carry(certify_set *s, const arb_t t, arb_mat_t M)
 {
-    arb_ptr d = _arb_vec_init(CERTIFY_ALL * CERTIFY_STATE);
+    ISO_BALL_ROW(d, CERTIFY_ALL * CERTIFY_STATE);
     arb_mat_t D;
     arb_mat_init(D, CERTIFY_ALL, CERTIFY_STATE);
     iso_series_at(&s->wide, t, CERTIFY_ALL, CERTIFY_ALL * CERTIFY_STATE, d);
@@ -156,45 +164,30 @@ static void carry(certify_set *s, const arb_t t, arb_mat_t M)
                             s->shift[j] - (i < CERTIFY_STATE ? s->shift[i] : 0));
     arb_mat_mul(M, D, s->A, WIDE_BITS);
     arb_mat_clear(D);
-    _arb_vec_clear(d, CERTIFY_ALL * CERTIFY_STATE);
-}
-
-/* x += the sum of |row i of M| r */
-static void add_row(const arb_mat_t M, int i, mag_srcptr r, mag_t x)
-{
-    mag_t size;
-    mag_init(size);
-    for (int j = 0; j < CERTIFY_STATE; j++) {
-        arb_get_mag(size, arb_mat_entry(M, i, j));
-        mag_addmul(x, size, r + j);
-    }
-    mag_clear(size);
 }
 
 bool certify_set_at(certify_set *s, const arb_t time, arb_ptr y)
 {
+    ISO_BALLS(t, size);
     arb_mat_t M;
-    arb_t t, size;
     mag_t error;
-    arb_init(t), arb_init(size), mag_init(error);
     arb_sub(t, time, s->time, s->thin.bits + WIDE_BITS);
     arb_abs(size, t);
-    const bool inside = arb_le(size, s->h);
-    if (inside) {
-        arb_mat_init(M, CERTIFY_ALL, CERTIFY_STATE);
-        carry(s, t, M);
-        iso_series_at(&s->thin, t, 0, CERTIFY_ALL, y);
-        for (int i = 0; i < CERTIFY_ALL; i++) {
-            mag_zero(error);
-            add_row(M, i, s->r, error);
-            if (i < CERTIFY_STATE) mag_mul_2exp_si(error, error, s->shift[i]);
-            arb_add_error_mag(y + i, error);
-            if (i >= CERTIFY_STATE) arb_add(y + i, y + i, s->clock[i - CERTIFY_STATE], s->thin.bits);
-        }
-        arb_mat_clear(M);
+    if (!arb_le(size, s->h)) return false;
+    mag_init(error);
+    arb_mat_init(M, CERTIFY_ALL, CERTIFY_STATE);
+    carry(s, t, M);
+    iso_series_at(&s->thin, t, 0, CERTIFY_ALL, y);
+    for (int i = 0; i < CERTIFY_ALL; i++) {
+        mag_zero(error);
+        add_row(M, i, s->r, error);
+        if (i < CERTIFY_STATE) mag_mul_2exp_si(error, error, s->shift[i]);
+        arb_add_error_mag(y + i, error);
+        if (i >= CERTIFY_STATE) arb_add(y + i, y + i, s->clock[i - CERTIFY_STATE], s->thin.bits);
     }
-    arb_clear(t), arb_clear(size), mag_clear(error);
-    return inside;
+    arb_mat_clear(M);
+    mag_clear(error);
+    return true;
 }
 
 /* --- the frame --------------------------------------------------------------------------------------------------- */
@@ -270,9 +263,8 @@ static void change_frame(certify_set *s, const arb_mat_t M, mag_srcptr e)
 void certify_set_move(certify_set *s)
 {
     mag_ptr e = _mag_vec_init(CERTIFY_STATE);
+    ISO_BALLS(t);
     arb_mat_t M, square;
-    arb_t t;
-    arb_init(t);
     arb_mat_init(M, CERTIFY_ALL, CERTIFY_STATE);
     arb_mul_si(t, s->h, s->direction, ARF_PREC_EXACT);
     carry(s, t, M);
@@ -290,7 +282,6 @@ void certify_set_move(certify_set *s)
     arb_mat_window_clear(square);
     arb_add(s->time, s->time, t, ARF_PREC_EXACT);
     arb_mat_clear(M);
-    arb_clear(t);
     _mag_vec_clear(e, CERTIFY_STATE);
 }
 

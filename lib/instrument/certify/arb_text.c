@@ -17,15 +17,11 @@ static void set_power(arb_t x, slong power, slong bits)
 /* The whole part of log10 of |x|, or less by 1. */
 static slong log10_of(const arf_t x)
 {
-    arb_t size, power;
-    fmpz_t bits;
-    arb_init(size), arb_init(power), fmpz_init(bits);
+    ISO_BALLS(size, power);
     arb_set_arf(size, x);
     arb_abs(size, size);
-    arf_abs_bound_lt_2exp_fmpz(bits, x);
-    slong e = (slong)(fmpz_get_d(bits) * 0.3010299956639812) + 1;
+    slong e = (slong)((double)arf_abs_bound_lt_2exp_si(x) * 0.3010299956639812) + 1;
     for (set_power(power, e, 64); !arb_le(power, size); set_power(power, e, 64)) e--;
-    arb_clear(size), arb_clear(power), fmpz_clear(bits);
     return e;
 }
 
@@ -44,16 +40,14 @@ slong certify_magnitude(arb_srcptr x, int count)
 
 bool certify_holds(arb_srcptr x, int count, slong place)
 {
-    arb_ptr most = _arb_vec_init(2), radius = most + 1;
-    bool holds = true;
+    ISO_BALLS(most, radius);
     set_power(most, place, 64);
     arb_mul_2exp_si(most, most, -1);
-    for (int i = 0; i < count && holds; i++) {
+    for (int i = 0; i < count; i++) {
         arb_get_rad_arb(radius, x + i);
-        holds = arb_is_finite(x + i) && arb_le(radius, most);
+        if (!(arb_is_finite(x + i) && arb_le(radius, most))) return false;
     }
-    _arb_vec_clear(most, 2);
-    return holds;
+    return true;
 }
 
 /* m 10^place */
@@ -78,21 +72,20 @@ static void print_decimal(FILE *to, const fmpz_t m, slong place)
 /* At least radius, with three digits: the radius times 10^-e, rounded up, is below 1000. */
 static void print_radius(FILE *to, const arb_t radius)
 {
-    arb_t scaled;
-    arf_t high;
+    ISO_BALLS(scaled);
     fmpz_t digits;
     if (arb_is_zero(radius)) {
         fputs("0", to);
         return;
     }
-    arb_init(scaled), arf_init(high), fmpz_init(digits);
+    fmpz_init(digits);
     const slong place = log10_of(arb_midref(radius)) - 2;
     set_power(scaled, -place, 64);
     arb_mul(scaled, scaled, radius, 64);
-    arb_get_ubound_arf(high, scaled, 64);
-    arf_get_fmpz(digits, high, ARF_RND_CEIL);
+    arb_get_ubound_arf(arb_midref(scaled), scaled, 64);
+    arf_get_fmpz(digits, arb_midref(scaled), ARF_RND_CEIL);
     print_decimal(to, digits, place);
-    arb_clear(scaled), arf_clear(high), fmpz_clear(digits);
+    fmpz_clear(digits);
 }
 
 void certify_print(FILE *to, const arb_t x, slong place, char between)
@@ -100,22 +93,19 @@ void certify_print(FILE *to, const arb_t x, slong place, char between)
     const slong size =
         arf_is_zero(arb_midref(x)) ? 0 : arf_abs_bound_lt_2exp_si(arb_midref(x)) - 3 * place - place / 3;
     const slong bits = 128 + (size > 0 ? size : 0);
-    arb_t scaled, power, rest;
+    ISO_BALLS(scaled, power, rest);
     fmpz_t m;
-    arb_init(scaled), arb_init(power), arb_init(rest), fmpz_init(m);
+    fmpz_init(m);
     set_power(power, -place, bits);
     arb_mul(scaled, x, power, bits);
     arf_get_fmpz(m, arb_midref(scaled), ARF_RND_NEAR);
     arb_sub_fmpz(rest, scaled, m, bits); /* x = (m + rest) 10^place */
     arb_abs(rest, rest);
     arb_div(rest, rest, power, 64);
-    arf_t high;
-    arf_init(high);
-    arb_get_ubound_arf(high, rest, 64);
-    arb_set_arf(rest, high);
+    arb_get_ubound_arf(arb_midref(rest), rest, 64);
+    mag_zero(arb_radref(rest));
     print_decimal(to, m, place);
     fputc(between, to);
     print_radius(to, rest);
-    arf_clear(high);
-    arb_clear(scaled), arb_clear(power), arb_clear(rest), fmpz_clear(m);
+    fmpz_clear(m);
 }

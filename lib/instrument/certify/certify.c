@@ -32,17 +32,6 @@ static iso_status read_times(iso_context *ctx, iso_certify_problem *p)
     return ISO_OK;
 }
 
-static iso_status check_digits(iso_context *ctx, const iso_certify_options *o)
-{
-    if (o->digits < 1 || o->digits > ISO_MOST_CERTIFIED_DIGITS)
-        return ISO_FAIL_ARGUMENT(ctx, "", "--digits %d: expected a whole number from 1 to %d", o->digits,
-                                 ISO_MOST_CERTIFIED_DIGITS);
-    if (o->work_digits && (o->work_digits < o->digits || o->work_digits > ISO_MOST_WORK_DIGITS))
-        return ISO_FAIL_ARGUMENT(ctx, "", "--work-digits %d: expected a whole number from %d (--digits) to %d",
-                                 o->work_digits, o->digits, ISO_MOST_WORK_DIGITS);
-    return ISO_OK;
-}
-
 static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
 {
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
@@ -64,7 +53,13 @@ iso_status iso_certify(iso_context *ctx, const iso_scene *scene, const iso_liter
     iso_certify_problem p = {.scene = scene, .literals = literals, .options = *options};
     *result = (iso_certify_result){.asked = 0};
     ISO_TRY(iso_certify_is_possible(ctx));
-    ISO_TRY(check_digits(ctx, options));
+    if (options->digits < 1 || options->digits > ISO_MOST_CERTIFIED_DIGITS)
+        return ISO_FAIL_ARGUMENT(ctx, "", "--digits %d: expected a whole number from 1 to %d", options->digits,
+                                 ISO_MOST_CERTIFIED_DIGITS);
+    if (options->work_digits &&
+        (options->work_digits < options->digits || options->work_digits > ISO_MOST_WORK_DIGITS))
+        return ISO_FAIL_ARGUMENT(ctx, "", "--work-digits %d: expected a whole number from %d (--digits) to %d",
+                                 options->work_digits, options->digits, ISO_MOST_WORK_DIGITS);
     ISO_TRY(check_scene(ctx, scene));
     ISO_TRY(read_times(ctx, &p));
     p.backend = scene->backend == ISO_BACKEND_AUTO ? scene->start.model : (iso_model_kind)scene->backend;

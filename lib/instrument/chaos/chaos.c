@@ -13,82 +13,55 @@
 #include "orbit/orbit_impl.h"
 #include "study/study_impl.h"
 
-/* --- what is refused -------------------------------------------------------------------------------------------- */
+/* --- before the first turn -------------------------------------------------------------------------------------- */
 
 static const char what[] = "is neither chaotic nor regular";
 
-static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
-{
-    const iso_status status = iso_refuse_unbound(w->ctx, w->orbit, what);
-    if (status != ISO_OK || largest(w->out->with[ISO_BALL] ? start->ball : start->point) > 0) return status;
-    return iso_refuse_start_at_rest(w->ctx, &w->scene->start, "deviations have no size");
-}
-
-static iso_status check_options(const iso_chaos_walk *w)
-{
-    const iso_chaos_options *o = &w->options;
-    if (o->turns < 1) return ISO_FAIL_ARGUMENT(w->ctx, "turns", "%ld turns: give 1 or more", o->turns);
-    if (o->exponent_turns < 0)
-        return ISO_FAIL_ARGUMENT(w->ctx, "exponent_turns", "%ld turns: give 0 or more", o->exponent_turns);
-    return iso_crossings_check_axis(w->ctx, o->axis);
-}
-
-/* Errors: ISO_BAD_INPUT about "axis". */
-static iso_status check_section(const iso_chaos_walk *w)
-{
-    const iso_point_motion m = iso_orbit_motion(w->orbit);
-    const int axis = w->out->axis;
-    if (axis < 0 || iso_section_is_global(m, axis)) return ISO_OK;
-    return ISO_FAIL_INPUT(w->ctx, "axis",
-                          "orbits can stay away from the section n_%d = 0 for ever: take n_%d = 0, which is global",
-                          axis + 1, iso_section_axis(m) + 1);
-}
-
-/* --- what a turn is --------------------------------------------------------------------------------------------- */
-
-/* A turn: a return to the section; under an effect beyond the level, the time in which n turns once at the rate
- * |k omega|. */
-static void choose_turn(iso_chaos_walk *w, const iso_effect *effect)
-{
-    iso_chaos *c = w->out;
-    const int asked = w->options.axis;
-    c->chart = asked == ISO_AXIS_AUTO ? iso_section_axis(iso_orbit_motion(w->orbit)) : asked;
-    c->axis = effect ? -1 : c->chart;
-    c->turn = effect ? iso_walk_turn(w->orbit, ISO_CLOCK_T) : (double)NAN;
-    if (!effect) c->integral = iso_orbit_additional_integral(w->orbit);
-}
-
-/* The axis about which a free orbit rotates in the plane n_axis = 0; -1: it does not. */
-static int find_plane(const double y[ISO_STATE])
-{
-    for (int a = 0; a < 3; a++)
-        if (iso_section_is_rotation(y, a)) return a;
-    return -1;
-}
-
-static void choose_models(iso_chaos_walk *w)
-{
-    const iso_effects *e = &w->effects;
-    const bool alone = iso_effects_breaking(e) || iso_effects_ball_only(e);
-    const iso_models models = w->options.models != ISO_SHOW_START ? w->options.models
-                              : alone                             ? ISO_SHOW_BALL
-                                                                  : ISO_SHOW_BOTH;
-    w->out->with[ISO_BALL] = models != ISO_SHOW_POINT;
-    w->out->with[ISO_POINT] = models != ISO_SHOW_BALL;
-    w->sampled = w->options.models == ISO_SHOW_START && models == ISO_SHOW_BOTH;
-}
-
+/* Checks the options, and opens the scene's orbit of the models that are integrated. */
 static iso_status open_orbit(iso_chaos_walk *w, iso_sample *start)
 {
-    const bool *with = w->out->with;
+    const iso_chaos_options *asked = &w->options;
+    const iso_effects *e = &w->effects;
+    bool *with = w->out->with;
+    if (asked->turns < 1) return ISO_FAIL_ARGUMENT(w->ctx, "turns", "%ld turns: give 1 or more", asked->turns);
+    if (asked->exponent_turns < 0)
+        return ISO_FAIL_ARGUMENT(w->ctx, "exponent_turns", "%ld turns: give 0 or more", asked->exponent_turns);
+    ISO_TRY(iso_crossings_check_axis(w->ctx, asked->axis));
+    w->effects = iso_scene_acting(w->scene);
+    const bool alone = iso_effects_breaking(e) || iso_effects_ball_only(e);
+    const iso_models models = asked->models != ISO_SHOW_START ? asked->models : alone ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
+    with[ISO_BALL] = models != ISO_SHOW_POINT;
+    with[ISO_POINT] = models != ISO_SHOW_BALL;
+    w->sampled = asked->models == ISO_SHOW_START && models == ISO_SHOW_BOTH;
+    ISO_TRY(iso_refuse_rest(w->ctx, &w->scene->start, e, what));
     iso_orbit_options o = iso_orbit_defaults(&w->scene->start);
-    o.effects = &w->effects;
+    o.effects = e;
     o.backend = with[ISO_BALL] ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
     o.clock = with[ISO_BALL] ? ISO_CLOCK_T : ISO_CLOCK_S;
     o.shown = with[ISO_BALL] && with[ISO_POINT] ? ISO_SHOW_BOTH : with[ISO_BALL] ? ISO_SHOW_BALL : ISO_SHOW_POINT;
-    o.tolerance = w->options.tolerance;
+    o.tolerance = asked->tolerance;
     ISO_TRY(iso_orbit_create(w->ctx, &w->scene->params, &w->scene->start, &o, &w->orbit));
-    return iso_orbit_at(w->orbit, 0, start);
+    ISO_TRY(iso_orbit_at(w->orbit, 0, start));
+    ISO_TRY(iso_refuse_unbound(w->ctx, w->orbit, what));
+    if (largest(with[ISO_BALL] ? start->ball : start->point) > 0) return ISO_OK;
+    return iso_refuse_start_at_rest(w->ctx, &w->scene->start, "deviations have no size");
+}
+
+/* A turn: a return to the section; under an effect beyond the level, the time in which n turns once at the rate
+ * |k omega|. Errors: ISO_BAD_INPUT about "axis". */
+static iso_status choose_turn(iso_chaos_walk *w, const iso_effect *effect)
+{
+    iso_chaos *c = w->out;
+    const iso_point_motion m = iso_orbit_motion(w->orbit);
+    const int global = iso_section_axis(m);
+    c->chart = w->options.axis == ISO_AXIS_AUTO ? global : w->options.axis;
+    c->axis = effect ? -1 : c->chart;
+    c->turn = effect ? iso_walk_turn(w->orbit, ISO_CLOCK_T) : (double)NAN;
+    if (!effect) c->integral = iso_orbit_additional_integral(w->orbit);
+    if (effect || iso_section_is_global(m, c->axis)) return ISO_OK;
+    return ISO_FAIL_INPUT(w->ctx, "axis",
+                          "orbits can stay away from the section n_%d = 0 for ever: take n_%d = 0, which is global",
+                          c->axis + 1, global + 1);
 }
 
 /* --- the result ------------------------------------------------------------------------------------------------- */
@@ -129,52 +102,45 @@ static void count_shares(const iso_chaos_walk *w)
     s->share = s->count > 0 ? (double)s->chaotic / (double)s->count : NAN;
     iso_share_interval(count, chaotic, &s->low, &unused);
     iso_share_interval(count, possible, &unused, &s->high);
+    s->half_interval = (s->high - s->low) / 2;
+    s->regular_share = (double)s->regular / (double)s->count;
+    s->undecided_share = (double)s->undecided / (double)s->count;
 }
 
-/* All that comes before the first turn. */
-static iso_status prepare(iso_chaos_walk *w)
+/* All that comes before the first turn. *w is set in each case; w->out is NULL if there is no memory. */
+static iso_status prepare(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options,
+                          iso_chaos_walk *w)
 {
-    const iso_chaos_options *o = &w->options;
-    const size_t starts = o->starts + o->at_count;
+    iso_chaos_options *o = &w->options;
     iso_sample start;
-    ISO_TRY(check_options(w));
-    w->effects = iso_scene_acting(w->scene);
-    choose_models(w);
-    ISO_TRY(iso_refuse_rest(w->ctx, &w->scene->start, &w->effects, what));
+    *w = (iso_chaos_walk){.ctx = ctx, .scene = scene, .options = options ? *options : iso_chaos_defaults()};
+    w->spread_tolerance = isnan(o->tolerance) ? fmax(scene->tolerance, ISO_SPREAD_TOLERANCE) : o->tolerance;
+    if (isnan(o->tolerance)) o->tolerance = scene->tolerance;
+    iso_chaos *c = w->out = calloc(1, sizeof *c);
+    if (!c) return iso_context_no_memory(ctx, "the indicators");
+    c->own.verdict = ISO_UNDECIDED;
     ISO_TRY(open_orbit(w, &start));
     const iso_effects effects = iso_orbit_effects(w->orbit);
     const iso_effect *effect = iso_effects_beyond_level(&effects);
-    ISO_TRY(check_motion(w, &start));
-    choose_turn(w, effect);
-    ISO_TRY(check_section(w));
+    const size_t starts = o->starts + o->at_count;
+    ISO_TRY(choose_turn(w, effect));
     if (starts > 0)
-        ISO_TRY(iso_refuse_starts(w->ctx, w->orbit, &w->effects, w->out->chart, o->at, o->at_count, o->starts > 0));
-    w->starts = (iso_starts){.scene = w->scene,
+        ISO_TRY(iso_refuse_starts(ctx, w->orbit, &w->effects, c->chart, o->at, o->at_count, o->starts > 0));
+    w->starts = (iso_starts){.scene = scene,
                              .orbit = w->orbit,
                              .effects = &w->effects,
-                             .axis = w->out->chart,
+                             .axis = c->chart,
                              .spread = o->starts,
                              .seed = o->seed,
                              .copies = ISO_SHIFTS,
                              .at = o->at};
     iso_starts_prepare(&w->starts);
-    w->out->plane = effect ? -1 : find_plane(w->out->with[ISO_BALL] ? start.ball : start.point);
-    w->out->start = calloc(starts + 1, sizeof *w->out->start);
-    if (!w->out->start) return iso_context_no_memory(w->ctx, "the starts");
-    for (size_t i = 0; i < starts; i++) w->out->start[i].number = i + 1;
-    return ISO_OK;
-}
-
-static iso_status begin(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options, iso_chaos_walk *w)
-{
-    *w = (iso_chaos_walk){.ctx = ctx, .scene = scene, .options = iso_chaos_defaults()};
-    if (options) w->options = *options;
-    const double asked = w->options.tolerance;
-    w->options.tolerance = isnan(asked) ? scene->tolerance : asked;
-    w->spread_tolerance = isnan(asked) ? fmax(scene->tolerance, ISO_SPREAD_TOLERANCE) : asked;
-    w->out = calloc(1, sizeof *w->out);
-    if (!w->out) return iso_context_no_memory(ctx, "the indicators");
-    w->out->own.verdict = ISO_UNDECIDED;
+    c->plane = -1;
+    for (int a = 2; a >= 0 && !effect; a--)
+        if (iso_section_is_rotation(c->with[ISO_BALL] ? start.ball : start.point, a)) c->plane = a;
+    c->start = calloc(starts + 1, sizeof *c->start);
+    if (!c->start) return iso_context_no_memory(ctx, "the starts");
+    for (size_t i = 0; i < starts; i++) c->start[i].number = i + 1;
     return ISO_OK;
 }
 
@@ -184,8 +150,7 @@ iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_cha
     ISO_DEFAULT_ARITHMETIC;
     iso_chaos_walk w;
     *chaos = NULL;
-    ISO_TRY(begin(ctx, scene, options, &w));
-    iso_status status = prepare(&w);
+    iso_status status = prepare(ctx, scene, options, &w);
     if (status == ISO_OK) {
         status = iso_chaos_follow(&w);
         count_shares(&w);
@@ -198,29 +163,16 @@ iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_cha
 
 /* --- many scenes ------------------------------------------------------------------------------------------------ */
 
-static bool alike(const iso_chaos_walk *a, const iso_chaos_walk *b)
-{
-    return a->options.tolerance == b->options.tolerance && a->out->with[0] == b->out->with[0] &&
-           a->out->with[1] == b->out->with[1];
-}
-
-/* Orbits that turn from section to section can share lanes; the others are followed alone. */
-static iso_status follow_single(iso_chaos_walk *w, iso_status *status)
-{
-    *status = iso_chaos_follow(w);
-    for (int m = 0; m < 2; m++) {
-        iso_record_free(w->out->trace[m]);
-        w->out->trace[m] = NULL;
-    }
-    return *status == ISO_STOPPED || *status == ISO_NO_MEMORY ? *status : ISO_OK;
-}
-
-/* Follows walk[0] and all that are like it. The others move to the front; *count is their number. */
+/* Follows walk[0] and all that have the same models and tolerance. The others move to the front; *count is their
+ * number. */
 static iso_status follow_alike(iso_chaos_walk *walk[], iso_chaos_walk *together[], size_t *count)
 {
+    const iso_chaos_walk *first = walk[0];
+    const bool *with = first->out->with;
     size_t others = 0, like = 0;
     for (size_t i = 0; i < *count; i++)
-        if (like == 0 || alike(together[0], walk[i]))
+        if (walk[i]->options.tolerance == first->options.tolerance && walk[i]->out->with[0] == with[0] &&
+            walk[i]->out->with[1] == with[1])
             together[like++] = walk[i];
         else
             walk[others++] = walk[i];
@@ -228,36 +180,24 @@ static iso_status follow_alike(iso_chaos_walk *walk[], iso_chaos_walk *together[
     return iso_chaos_follow_each(like, together);
 }
 
+/* Orbits that turn from section to section can share lanes; the others are followed alone. */
 static iso_status follow_many(size_t count, iso_chaos_walk walk[], iso_chaos_walk *left[], iso_status status[])
 {
     iso_status answer = ISO_OK;
     size_t free = 0;
     for (size_t i = 0; i < count && answer == ISO_OK; i++) {
+        iso_chaos *c = walk[i].out;
         if (status[i] != ISO_OK) continue;
-        if (walk[i].out->axis < 0 || walk[i].out->plane >= 0)
-            answer = follow_single(&walk[i], &status[i]);
-        else
+        if (c->axis >= 0 && c->plane < 0) {
             left[free++] = &walk[i];
+            continue;
+        }
+        status[i] = iso_chaos_follow(&walk[i]);
+        for (int m = 0; m < 2; m++) iso_record_free(c->trace[m]), c->trace[m] = NULL;
+        if (status[i] == ISO_STOPPED || status[i] == ISO_NO_MEMORY) answer = status[i];
     }
     while (free > 0 && answer == ISO_OK) answer = follow_alike(left, left + count, &free);
     return answer;
-}
-
-/* The orbit of a walk is only needed before the first turn. */
-static iso_status prepare_many(iso_context *ctx, size_t count, const iso_scene *const scene[],
-                               const iso_chaos_options *options, iso_chaos_walk walk[], iso_status status[])
-{
-    for (size_t i = 0; i < count; i++) {
-        if (!scene[i]) continue;
-        status[i] = begin(ctx, scene[i], options, &walk[i]);
-        if (status[i] == ISO_OK) status[i] = prepare(&walk[i]);
-        iso_orbit_free(walk[i].orbit);
-        walk[i].orbit = NULL;
-        if (status[i] == ISO_NO_MEMORY || status[i] == ISO_STOPPED) return status[i];
-        if (status[i] == ISO_OK || !walk[i].out) continue;
-        snprintf(walk[i].out->words, sizeof walk[i].out->words, "%s", iso_context_message(ctx));
-    }
-    return ISO_OK;
 }
 
 iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *const scene[],
@@ -265,14 +205,19 @@ iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *c
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_chaos_walk *walk = calloc(count + 1, sizeof *walk), **left = calloc(2 * count + 1, sizeof *left);
-    iso_status answer = ISO_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) status[i] = ISO_BAD_ARGUMENT;
-    if (walk && left) {
-        answer = prepare_many(ctx, count, scene, options, walk, status);
-        if (answer == ISO_OK) answer = follow_many(count, walk, left, status);
-    } else {
-        iso_context_no_memory(ctx, "%zu orbits", count);
+    iso_status answer = walk && left ? ISO_OK : iso_context_no_memory(ctx, "%zu orbits", count);
+    for (size_t i = 0; i < count; i++) {
+        status[i] = ISO_BAD_ARGUMENT;
+        if (answer != ISO_OK || !scene[i]) continue;
+        status[i] = prepare(ctx, scene[i], options, &walk[i]);
+        iso_orbit_free(walk[i].orbit); /* only needed before the first turn */
+        walk[i].orbit = NULL;
+        if (status[i] == ISO_NO_MEMORY || status[i] == ISO_STOPPED)
+            answer = status[i];
+        else if (status[i] != ISO_OK)
+            snprintf(walk[i].out->words, sizeof walk[i].out->words, "%s", iso_context_message(ctx));
     }
+    if (answer == ISO_OK) answer = follow_many(count, walk, left, status);
     for (size_t i = 0; i < count; i++) {
         chaos[i] = walk ? walk[i].out : NULL;
         if (answer == ISO_OK && status[i] == ISO_OK && walk[i].out->plane < 0)

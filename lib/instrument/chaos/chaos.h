@@ -18,7 +18,7 @@
  * With `starts`, more orbits of the scene's energy begin on the section, spread evenly by the area dL dl. The share
  * of them that is chaotic estimates the chaotic part of the area. Its confidence interval of 95 % comes from the
  * starts themselves: they are 16 copies of one even sequence, each with a random shift of its own, and the scatter of
- * the copies tells the error (share.c). An orbit that stays undecided may be either: at the low end of the
+ * the copies shows the error (share.c). An orbit that stays undecided may be either: at the low end of the
  * interval it counts as not chaotic, at the high end as chaotic. Orbits that were not followed, because they failed
  * or because the call was stopped, do not count. After a stop the orbits that have made a turn count, so that an
  * early verdict has no advantage; those without a verdict are undecided.
@@ -62,12 +62,7 @@ typedef struct iso_chaos_options {
 /* 3000 turns of the scene's own orbit. */
 static inline iso_chaos_options iso_chaos_defaults(void)
 {
-    iso_chaos_options o = {0};
-    o.turns = 3000;
-    o.models = ISO_SHOW_START;
-    o.axis = ISO_AXIS_AUTO;
-    o.tolerance = NAN;
-    return o;
+    return (iso_chaos_options){.turns = 3000, .models = ISO_SHOW_START, .axis = ISO_AXIS_AUTO, .tolerance = NAN};
 }
 
 /* One orbit. result[ISO_BALL], result[ISO_POINT]: what each model has found. A model that was not integrated, or that
@@ -90,7 +85,8 @@ typedef struct iso_chaos_fraction {
     double tolerance; /* of the steps of these starts */
     /* The share chaotic/count, and the confidence interval of 95 % of the chaotic part, with undecided ones counted
      * both ways; NaN: no orbit was followed. */
-    double share, low, high;
+    double share, low, high, half_interval; /* (high - low)/2 */
+    double regular_share, undecided_share;
 } iso_chaos_fraction;
 
 typedef struct iso_chaos {
@@ -110,7 +106,7 @@ typedef struct iso_chaos {
     /* The indicators of the scene's orbit against the turns: columns turn, t (for a point without a ball: s), growth
      * (ln D), megno (Y), mean and gali2. At most some thousand rows, evenly spread. NULL: not integrated. */
     iso_record *trace[2];
-    iso_status failure; /* of the first orbit that failed (0: the scene's; i: start i - 1), with its words */
+    iso_status failure; /* of the first orbit that failed (0: the scene's; i: start i - 1), with its text */
     char words[512];
     int chart; /* of the section on which the starts are: the axis, or that of a section which is not global */
 } iso_chaos;

@@ -27,18 +27,15 @@ typedef struct iso_chaos_walk {
 iso_status iso_chaos_follow(iso_chaos_walk *w);
 
 /* Follows the own orbits of free scenes together, in the lanes of the same vectors. They have the same options, the
- * same models, and no trace. The numbers are those that iso_chaos_follow gives, to the bit. Errors: ISO_NO_MEMORY,
+ * same models, and no trace. The numbers are those of iso_chaos_follow, to the bit. Errors: ISO_NO_MEMORY,
  * ISO_STOPPED, those of iso_crossings_create; an orbit that fails says so in its own result. */
 iso_status iso_chaos_follow_each(size_t count, iso_chaos_walk *const walk[]);
 
 /* The failure of the scene's own orbit if no model could follow it. */
 iso_status iso_chaos_check_own(const iso_chaos_walk *w);
 
-/* The columns of a table of its orbits: those of iso_chaos_orbit_fields for the models that were integrated. */
-void iso_chaos_columns(const iso_chaos *chaos, iso_field fields[ISO_MOST_FIELDS]);
-
 /* The own orbits of many scenes, followed together: as fast as the starts of one scene. options: no starts, no axis.
- * scene[i] may be NULL. chaos[i], status[i]: what iso_chaos_run gives for scene i, to the bit, but without a trace.
+ * scene[i] may be NULL. chaos[i], status[i]: those of iso_chaos_run for scene i, to the bit, but without a trace.
  * After a failure of scene i, chaos[i]->words says why (chaos[i] may be NULL). The caller frees each chaos[i].
  * Errors of the call: ISO_NO_MEMORY, ISO_STOPPED, and those of iso_crossings_create: then every chaos[i] is NULL. */
 iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *const scene[],
@@ -107,13 +104,13 @@ enum { ISO_SHIFTS = 16 };
 /* found[r] of count[r] starts of copy r are in the set. Without a start: NaN. */
 void iso_share_interval(const size_t count[ISO_SHIFTS], const size_t found[ISO_SHIFTS], double *low, double *high);
 
-/* What the options of the study hold. */
+/* The options of the study. */
 typedef struct iso_chaos_request {
     iso_chaos_options how;
     iso_section_words words;
 } iso_chaos_request;
 
-/* What it tells people, and the lines of its table (chaos_print.c). */
+/* Its text, and the lines of its table (chaos_print.c). */
 void iso_chaos_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 iso_status iso_chaos_describe(iso_context *ctx, const iso_scene *scene, const void *options,
                               iso_study_result *result);

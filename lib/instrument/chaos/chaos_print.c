@@ -1,4 +1,4 @@
-/* chaos_print.c - what chaos tells people (study/study.h). */
+/* chaos_print.c - the text of chaos, and the lines of its table (study/study.h). */
 #include <math.h>
 
 #include "instrument/chaos/chaos_impl.h"
@@ -21,94 +21,60 @@ static void print_head(FILE *to, const iso_scene *scene, const iso_chaos *c)
     if (c->plane < 0) fputs("\nlargest exponents per unit of t, tau and s\n", to);
 }
 
-/* x +- error; an error that is not known is "?" */
-static void print_rate(FILE *to, double x, double error)
-{
-    if (isnan(x))
-        fputs("\t-", to);
-    else if (isnan(error))
-        fprintf(to, "\t%.2e +- ?", x);
-    else
-        fprintf(to, "\t%.2e +- %.0e", x, error);
-}
-
-static void print_model(FILE *to, const iso_chaos *c, int model)
-{
-    const iso_indication *i = &c->own.result[model];
-    if (!c->with[model]) return;
-    fprintf(to, "%s\t%s\t%ld\t%.4g\t%.1e", iso_model_kind_name(model), iso_verdict_name(i->verdict), i->turns,
-            i->megno, i->gali2);
-    for (int clock = 0; clock < ISO_CLOCKS; clock++) print_rate(to, i->exponent[clock], i->error[clock]);
-    fputs("\n", to);
-}
-
+/* Of each model the indicators; then what the exponents are worth. An error that is not known is "?". */
 static void print_models(FILE *to, const iso_chaos *c)
-{
-    iso_table_begin(to, 1);
-    fputs("model\tverdict\tturns\tMEGNO\tGALI_2\tper t\tper tau\tper s\n", to);
-    for (int m = 0; m < 2; m++) print_model(to, c, m);
-    iso_table_end(to);
-}
-
-/* lam_t by the ball and by the point */
-static void print_agreement(FILE *to, const iso_chaos *c)
-{
-    const iso_indication *one = &c->own.result[ISO_BALL], *other = &c->own.result[ISO_POINT];
-    const double apart = fabs(one->exponent[ISO_CLOCK_T] - other->exponent[ISO_CLOCK_T]),
-                 error = hypot(one->error[ISO_CLOCK_T], other->error[ISO_CLOCK_T]);
-    if (!c->with[ISO_BALL] || !c->with[ISO_POINT] || isnan(apart) || isnan(error)) return;
-    fprintf(to, "  the exponents per t of both models are %.2g errors apart\n", apart / error);
-}
-
-/* What the exponents are worth. */
-static void print_worth(FILE *to, const iso_chaos *c)
 {
     bool rough = false;
     long longest = 0;
+    iso_table_begin(to, 1);
+    fputs("model\tverdict\tturns\tMEGNO\tGALI_2\tper t\tper tau\tper s\n", to);
     for (int m = 0; m < 2; m++) {
         const iso_indication *i = &c->own.result[m];
-        if (!c->with[m] || i->verdict != ISO_CHAOTIC) continue;
+        if (!c->with[m]) continue;
+        fprintf(to, "%s\t%s\t%ld\t%.4g\t%.1e", iso_model_kind_name(m), iso_verdict_name(i->verdict), i->turns,
+                i->megno, i->gali2);
+        for (int clock = 0; clock < ISO_CLOCKS; clock++)
+            if (isnan(i->exponent[clock]))
+                fputs("\t-", to);
+            else if (isnan(i->error[clock]))
+                fprintf(to, "\t%.2e +- ?", i->exponent[clock]);
+            else
+                fprintf(to, "\t%.2e +- %.0e", i->exponent[clock], i->error[clock]);
+        fputs("\n", to);
+        if (i->verdict != ISO_CHAOTIC) continue;
         rough = rough || isnan(i->error[ISO_CLOCK_T] + i->per_turn_error);
         if (i->exponent_turns > i->turns && i->exponent_turns > longest) longest = i->exponent_turns;
     }
+    iso_table_end(to);
     if (c->own.verdict == ISO_REGULAR)
         fputs("  the exponents of a regular orbit are 0: these estimates fall like 1/turns\n", to);
     if (longest > 0) fprintf(to, "  the exponents are from %ld turns\n", longest);
     if (rough) fputs("  +- ?: the orbit is too short to know this error; --exponent-turns makes it longer\n", to);
 }
 
-/* How many of the starts were followed, if not all. */
-static void print_followed(FILE *to, const iso_chaos_fraction *s)
+static void print_share(FILE *to, const iso_chaos_fraction *s, bool integrable)
 {
-    if (s->count == s->asked) return;
-    fprintf(to, "  %zu of them were followed", s->count);
-    if (s->failed > 0) fprintf(to, "; %zu failed", s->failed);
-    fprintf(to, s->count > 0 ? ": the shares are of these\n" : ": no share is known\n");
-}
-
-static void print_share(FILE *to, const iso_chaos *c)
-{
-    const iso_chaos_fraction *s = &c->share;
-    if (s->asked == 0) return;
-    const double count = (double)s->count;
     fprintf(to, "\n%zu starts spread evenly over the section, by its area dL dl, with a tolerance of %g:\n", s->asked,
             s->tolerance);
-    print_followed(to, s);
+    if (s->count < s->asked) {
+        fprintf(to, "  %zu of them were followed", s->count);
+        if (s->failed > 0) fprintf(to, "; %zu failed", s->failed);
+        fprintf(to, s->count > 0 ? ": the shares are of these\n" : ": no share is known\n");
+    }
     if (s->count == 0) return;
     fprintf(to,
             "  chaotic    %8.4f   (%zu); 95 %% interval %.4f to %.4f\n"
             "  regular    %8.4f   (%zu)\n"
             "  undecided  %8.4f   (%zu)\n",
-            s->share, s->chaotic, s->low, s->high, (double)s->regular / count, s->regular,
-            (double)s->undecided / count, s->undecided);
-    if (s->undecided > 0 && c->integral)
+            s->share, s->chaotic, s->low, s->high, s->regular_share, s->regular, s->undecided_share, s->undecided);
+    if (s->undecided > 0 && integrable)
         fputs("  undecided ones are not chaotic: the integral excludes it\n", to);
     else if (s->undecided > 0)
         fprintf(
             to,
             "  undecided ones count as not chaotic in the share and at the low end of the interval, as chaotic at\n"
             "  its high end; the middle of what is possible is %.4f\n",
-            ((double)s->chaotic + (double)s->undecided / 2) / count);
+            ((double)s->chaotic + (double)s->undecided / 2) / (double)s->count);
     if (s->checked > 0 && s->disagree == 0)
         fprintf(to, "  ball and point both decided %zu of them, and never disagree\n", s->checked);
     else if (s->disagree > 0)
@@ -122,9 +88,12 @@ void iso_chaos_print(FILE *to, const iso_scene *scene, const void *options, cons
     (void)options;
     print_head(to, scene, c);
     if (c->plane < 0) print_models(to, c);
-    if (c->plane < 0) print_worth(to, c);
-    print_agreement(to, c);
-    print_share(to, c);
+    const iso_indication *one = &c->own.result[ISO_BALL], *other = &c->own.result[ISO_POINT];
+    const double apart = fabs(one->exponent[ISO_CLOCK_T] - other->exponent[ISO_CLOCK_T]),
+                 error = hypot(one->error[ISO_CLOCK_T], other->error[ISO_CLOCK_T]);
+    if (c->with[ISO_BALL] && c->with[ISO_POINT] && !isnan(apart) && !isnan(error))
+        fprintf(to, "  the exponents per t of both models are %.2g errors apart\n", apart / error);
+    if (c->share.asked > 0) print_share(to, &c->share, c->integral);
 }
 
 /* Orbit 0 is the scene's own. Other orbits that were not followed have no row. */

@@ -49,19 +49,6 @@ static void begin(void *user, size_t i, iso_start *start, iso_batch_orbit *orbit
 
 /* --- turns ------------------------------------------------------------------------------------------------------ */
 
-static void make_turn(const iso_crossing *c, const iso_sample *sample, iso_turn_sample *turn)
-{
-    const double root = sqrt(fmax(0, 1 - c->x * c->x)), direction[3] = {root * sin(c->l), root * cos(c->l), c->x};
-    memcpy(turn->clock, c->clock, sizeof turn->clock);
-    memcpy(turn->growth, c->growth, sizeof turn->growth);
-    turn->area = c->area;
-    /* smooth functions of the place, without a symmetry: of M/|M| on the section, else of n */
-    const double *u = sample ? sample->ball + 3 : direction;
-    turn->observable[0] = u[0] + u[0] * u[0];
-    turn->observable[1] = u[1] + u[1] * u[1];
-    turn->observable[2] = u[2] + u[0] * u[1] * u[2];
-}
-
 static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators *shown)
 {
     const iso_chaos_options *o = &w->options;
@@ -101,14 +88,6 @@ static bool only_checks(const group *g, int model)
     return model == ISO_BALL && g->w->sampled && are_spread(g);
 }
 
-/* Whether the model follows orbit i. The ball checks verdicts of the point, of those that need no more turns. */
-static bool follows(group *g, size_t i)
-{
-    const iso_indicators *point = shown_of(g, ISO_POINT, i);
-    if (!only_checks(g, g->model)) return true;
-    return (i - 1) % CHECKED == 0 && iso_indicators_verdict(point) != ISO_UNDECIDED && point->decided <= CHECK_TURNS;
-}
-
 /* The number of turns after which an orbit ends: the verdict regular ends it at once. */
 static long most_turns(group *g, size_t i)
 {
@@ -118,13 +97,17 @@ static long most_turns(group *g, size_t i)
     return verdict == ISO_UNDECIDED ? most : verdict == ISO_CHAOTIC ? o->exponent_turns : 0;
 }
 
-/* The turns until the next look at orbit i. */
+/* The turns until the next look at orbit i. As a check the ball follows orbits of which the point has found the
+ * verdict, by no more turns. */
 static size_t wanted(void *user, size_t i)
 {
     group *g = user;
-    const iso_indicators *shown = shown_of(g, g->model, i);
+    const iso_indicators *shown = shown_of(g, g->model, i), *point = shown_of(g, ISO_POINT, i);
     const long most = most_turns(g, i), next = iso_indicators_next(shown), to = next < most ? next : most;
-    if (orbit_of(g, i)->status[g->model] != ISO_OK || !follows(g, i)) return 0;
+    if (orbit_of(g, i)->status[g->model] != ISO_OK) return 0;
+    if (only_checks(g, g->model) &&
+        ((i - 1) % CHECKED != 0 || iso_indicators_verdict(point) == ISO_UNDECIDED || point->decided > CHECK_TURNS))
+        return 0;
     return to > shown->turns ? (size_t)(to - shown->turns) : 0;
 }
 
@@ -132,29 +115,27 @@ static iso_status take(void *user, size_t i, const iso_walk_stop *stop)
 {
     group *g = user;
     const iso_chaos_walk *w = g->w;
+    const iso_crossing *c = stop->crossing[0];
     iso_indicators *shown = shown_of(g, g->model, i);
-    iso_turn_sample turn;
     if (g->still[i - g->first]) return ISO_OK;
-    make_turn(stop->crossing[0], stop->sample, &turn);
-    if (isnan(turn.growth[0] + turn.growth[1])) {
-        static const char words[] = "it stands still: its deviations have no length";
+    if (isnan(c->growth[0] + c->growth[1])) {
+        static const char why[] = "it stands still: its deviations have no length";
         g->still[i - g->first] = true;
-        note_failure(g, i, 0, ISO_FAIL_NUMERICAL(w->ctx, "%s", words), words);
+        note_failure(g, i, 0, ISO_FAIL_NUMERICAL(w->ctx, "%s", why), why);
         return ISO_OK;
     }
+    /* smooth functions of the place, without a symmetry: of M/|M| on the section, else of n */
+    const double root = sqrt(fmax(0, 1 - c->x * c->x)), direction[3] = {root * sin(c->l), root * cos(c->l), c->x};
+    const double *u = stop->sample ? stop->sample->ball + 3 : direction;
+    iso_turn_sample turn = {.area = c->area,
+                            .observable = {u[0] + u[0] * u[0], u[1] + u[1] * u[1], u[2] + u[0] * u[1] * u[2]}};
+    memcpy(turn.clock, c->clock, sizeof turn.clock);
+    memcpy(turn.growth, c->growth, sizeof turn.growth);
     iso_indicators_add(shown, &turn);
     return !g->each && i == 0 ? trace(w, g->model, shown) : ISO_OK;
 }
 
 /* --- groups ----------------------------------------------------------------------------------------------------- */
-
-static iso_status create_trace(iso_chaos_walk *w, int model)
-{
-    ISO_TRY(iso_columns_create(w->ctx, iso_indicator_fields, &w->out->trace[model]));
-    iso_record_set_kind(w->out->trace[model], "chaos indicators");
-    ISO_TRY(iso_record_set(w->ctx, w->out->trace[model], "model", iso_model_kind_name(model)));
-    return ISO_OK;
-}
 
 /* An orbit with a verdict counts as done. The point goes first. */
 static void show_progress(void *user, double part)
@@ -172,7 +153,7 @@ static void show_progress(void *user, double part)
 }
 
 /* The verdict of both models. */
-static void judge(const iso_chaos *c, iso_chaos_orbit *orbit)
+static void find_verdict(const iso_chaos *c, iso_chaos_orbit *orbit)
 {
     bool found[3] = {false, false, false};
     for (int m = 0; m < 2; m++)
@@ -227,7 +208,7 @@ static iso_status follow_group(group *g)
     for (size_t i = g->first; i < end; i++) {
         for (int m = 0; m < 2; m++)
             if (c->with[m]) iso_indicators_read(shown_of(g, m, i), &orbit_of(g, i)->result[m]);
-        judge(c, orbit_of(g, i));
+        find_verdict(c, orbit_of(g, i));
     }
     return status;
 }
@@ -241,65 +222,55 @@ iso_status iso_chaos_check_own(const iso_chaos_walk *w)
     return iso_context_fail(w->ctx, c->failure, iso_context_about(w->ctx), "%s", c->words);
 }
 
-/* A rotation in a principal plane is periodic, so regular. */
-static void tell_plane(iso_chaos *c)
+static iso_status create_traces(const iso_chaos_walk *w)
 {
-    iso_indicators none;
-    c->own = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_REGULAR};
-    iso_indicators_begin(&none, 1);
     for (int m = 0; m < 2; m++) {
-        iso_indicators_read(&none, &c->own.result[m]);
-        if (c->with[m]) c->own.result[m].verdict = ISO_REGULAR;
+        if (!w->out->with[m]) continue;
+        ISO_TRY(iso_columns_create(w->ctx, iso_indicator_fields, &w->out->trace[m]));
+        iso_record_set_kind(w->out->trace[m], "chaos indicators");
+        ISO_TRY(iso_record_set(w->ctx, w->out->trace[m], "model", iso_model_kind_name(m)));
     }
+    return ISO_OK;
 }
 
-static iso_status follow_all(group *g)
+iso_status iso_chaos_follow(iso_chaos_walk *w)
 {
-    iso_chaos_walk *w = g->w;
+    iso_chaos *c = w->out;
     const size_t spread = w->options.starts, orbits = spread + w->options.at_count + 1;
-    iso_status status = ISO_OK;
-    for (int m = 0; m < 2 && status == ISO_OK; m++)
-        if (w->out->with[m]) status = create_trace(w, m);
-    if (w->out->plane >= 0) tell_plane(w->out);
-    for (size_t first = w->out->plane >= 0; first < orbits && status == ISO_OK; first += g->count) {
+    group *g = calloc(1, sizeof *g);
+    iso_status status = g ? create_traces(w) : iso_context_no_memory(w->ctx, "the orbits");
+    if (g) g->w = w;
+    if (g && c->plane >= 0) { /* a rotation in a principal plane is periodic, so regular */
+        c->own = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_REGULAR};
+        iso_indicators_begin(&g->shown[0][0], 1);
+        for (int m = 0; m < 2; m++) {
+            iso_indicators_read(&g->shown[0][0], &c->own.result[m]);
+            if (c->with[m]) c->own.result[m].verdict = ISO_REGULAR;
+        }
+    }
+    for (size_t first = c->plane >= 0; first < orbits && status == ISO_OK; first += g->count) {
         g->first = first;
         const size_t end = first == 0 ? 1 : first <= spread ? spread + 1 : orbits; /* of orbits of one kind */
         g->count = end - first < GROUP ? end - first : GROUP;
         status = follow_group(g);
         if (first == 0 && status == ISO_OK) status = iso_chaos_check_own(w);
-        w->out->starts = first + g->count - 1;
+        c->starts = first + g->count - 1;
     }
-    return status;
-}
-
-/* The own orbits of many scenes. */
-static iso_status follow_each(group *g, size_t count)
-{
-    iso_status status = ISO_OK;
-    for (g->first = 0; g->first < count && status == ISO_OK; g->first += g->count) {
-        g->count = count - g->first < GROUP ? count - g->first : GROUP;
-        status = follow_group(g);
-    }
-    return status;
-}
-
-static iso_status with_group(iso_chaos_walk *w, size_t count, iso_chaos_walk *const each[])
-{
-    group *g = calloc(1, sizeof *g);
-    if (!g) return iso_context_no_memory(w->ctx, "the orbits");
-    g->w = w;
-    g->each = each;
-    const iso_status status = each ? follow_each(g, count) : follow_all(g);
     free(g);
     return status;
 }
 
-iso_status iso_chaos_follow(iso_chaos_walk *w)
-{
-    return with_group(w, 0, NULL);
-}
-
 iso_status iso_chaos_follow_each(size_t count, iso_chaos_walk *const walk[])
 {
-    return with_group(walk[0], count, walk);
+    group *g = calloc(1, sizeof *g);
+    if (!g) return iso_context_no_memory(walk[0]->ctx, "the orbits");
+    g->w = walk[0];
+    g->each = walk;
+    iso_status status = ISO_OK;
+    for (; g->first < count && status == ISO_OK; g->first += g->count) {
+        g->count = count - g->first < GROUP ? count - g->first : GROUP;
+        status = follow_group(g);
+    }
+    free(g);
+    return status;
 }

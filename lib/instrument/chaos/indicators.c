@@ -68,44 +68,28 @@ static void add_to_window(iso_window *window, long n, double growth, double step
 static double digits_of(const iso_window *window)
 {
     static const double LEAST_SPREAD = 1e-4, ROUNDING = 1e-16;
-    double worst = ROUNDING;
+    double largest = ROUNDING;
     for (int i = 0; i < ISO_OBSERVABLES; i++) {
         const double one = window->observable[0][i] / window->weight[0],
                      other = window->observable[1][i] / window->weight[1];
         const double spread = sqrt(fmax(0, window->square[0][i] / window->weight[0] - one * one));
         const double difference = fabs(one - other) / (spread + LEAST_SPREAD);
-        if (!(difference <= worst)) worst = difference;
+        if (!(difference <= largest)) largest = difference;
     }
-    return -log10(worst);
+    return -log10(largest);
 }
 
-/* 2 (n - 1/2) ln(D_n/D_(n-1)) = limit + A/n by least squares. */
-static double limit_of_steps(const iso_window *window)
+/* The limit of MEGNO where D has grown little; NaN: not known. D_n^2 = c0 + c1 v + c2 v^2, v = n/last, by least squares
+ * (Cramer's rule). The coefficients are as accurate as the smooth means, which agree to `digits`. */
+static double limit_of_square(const iso_window *window, double digits)
 {
-    const double w = window->whole, x = window->inverse[0] / w, y = window->megno_whole / w;
-    const double slope = (window->inverse[2] / w - x * y) / (window->inverse[1] / w - x * x);
-    return y - slope * x;
-}
-
-/* D_n^2 = a + b v + c v^2, v = n/last, by least squares (Cramer's rule). */
-static void fit_square(const iso_window *window, double coefficient[3])
-{
+    static const double FLAT = 1e-4, GROWING = 1e-3;
     const double *p = window->power, *y = window->length;
     const double m00 = p[2] * p[4] - p[3] * p[3], m01 = p[1] * p[4] - p[2] * p[3], m02 = p[1] * p[3] - p[2] * p[2],
                  m11 = p[0] * p[4] - p[2] * p[2], m12 = p[0] * p[3] - p[1] * p[2], m22 = p[0] * p[2] - p[1] * p[1];
     const double det = p[0] * m00 - p[1] * m01 + p[2] * m02;
-    coefficient[0] = (m00 * y[0] - m01 * y[1] + m02 * y[2]) / det;
-    coefficient[1] = (-m01 * y[0] + m11 * y[1] - m12 * y[2]) / det;
-    coefficient[2] = (m02 * y[0] - m12 * y[1] + m22 * y[2]) / det;
-}
-
-/* The limit of MEGNO where D has grown little; NaN: not known. The coefficients are as accurate as the smooth means,
- * which agree to `digits`. */
-static double limit_of_square(const iso_window *window, double digits)
-{
-    static const double FLAT = 1e-4, GROWING = 1e-3;
-    double c[3];
-    fit_square(window, c);
+    const double c[3] = {(m00 * y[0] - m01 * y[1] + m02 * y[2]) / det, (-m01 * y[0] + m11 * y[1] - m12 * y[2]) / det,
+                         (m02 * y[0] - m12 * y[1] + m22 * y[2]) / det};
     const double size = fabs(c[0]);
     if (c[2] > fmax(GROWING, pow(10, 1 - digits)) * size && c[0] + c[1] + c[2] > 0) return 2;
     return fabs(c[1]) < FLAT * size && fabs(c[2]) < FLAT * size ? 0 : (double)NAN;
@@ -239,12 +223,15 @@ static bool looks_chaotic(const iso_indicators *it)
     return exponent > ERRORS * scatter(it, -1, exponent, 1, &parts);
 }
 
-static void judge(iso_indicators *it, const iso_window *window)
+static void look(iso_indicators *it, const iso_window *window)
 {
     const bool before = it->looked_regular, smooth_before = it->looked_smooth;
+    /* 2 (n - 1/2) ln(D_n/D_(n-1)) = limit + A/n by least squares */
+    const double w = window->whole, x = window->inverse[0] / w, y = window->megno_whole / w;
+    const double slope = (window->inverse[2] / w - x * y) / (window->inverse[1] / w - x * x);
     it->gain_before = it->gain;
     it->digits = digits_of(window);
-    it->limit = limit_of_steps(window);
+    it->limit = y - slope * x;
     it->gain = window->growth[1] / window->weight[1] - window->growth[0] / window->weight[0];
     for (int h = 0; h < 2; h++) it->halves[h] = window->megno[h] / window->weight[h];
     const bool regular = (before || it->digits >= DIGITS_ONE_LOOK) && looks_regular(it, window, HALF);
@@ -271,40 +258,31 @@ void iso_indicators_begin(iso_indicators *it, long most)
     it->limit = it->digits = it->gain = it->gain_before = NAN;
 }
 
-/* Keeps ln D and the clocks at the end of a part. When there is no more room, every two parts become one. */
-static void end_part(iso_indicators *it)
-{
-    if (it->parts == ISO_PARTS) {
-        for (int i = 1; i <= ISO_PARTS / 2; i++) memcpy(it->sum[i], it->sum[2 * i], sizeof it->sum[i]);
-        it->parts /= 2;
-        it->part *= 2;
-    }
-    if (it->turns % it->part == 0) memcpy(it->sum[++it->parts], it->now, sizeof it->now);
-}
-
-/* ln sqrt((|d1|^2 + |d2|^2)/2) */
-static double ln_length(const double growth[ISO_DEVIATIONS])
-{
-    const double larger = fmax(growth[0], growth[1]), smaller = fmin(growth[0], growth[1]);
-    return larger + log1p(exp(2 * (smaller - larger))) / 2 - log(2) / 2;
-}
-
 void iso_indicators_add(iso_indicators *it, const iso_turn_sample *turn)
 {
-    const double growth = ln_length(turn->growth), step = growth - it->before;
+    const double larger = fmax(turn->growth[0], turn->growth[1]), smaller = fmin(turn->growth[0], turn->growth[1]);
+    const double growth = larger + log1p(exp(2 * (smaller - larger))) / 2 - log(2) / 2; /* ln D_n */
+    const double step = growth - it->before;
     const long n = ++it->turns;
     it->before = it->now[0] = growth;
     memcpy(it->now + 1, turn->clock, sizeof turn->clock);
     it->area = turn->area;
     it->step_sum += ((double)n - 0.5) * step;
     it->mean_sum += 2 * it->step_sum / (double)n;
-    if (n % it->part == 0) end_part(it);
+    if (n % it->part == 0) { /* the end of a part; when there is no more room, every two parts become one */
+        if (it->parts == ISO_PARTS) {
+            for (int i = 1; i <= ISO_PARTS / 2; i++) memcpy(it->sum[i], it->sum[2 * i], sizeof it->sum[i]);
+            it->parts /= 2;
+            it->part *= 2;
+        }
+        if (n % it->part == 0) memcpy(it->sum[++it->parts], it->now, sizeof it->now);
+    }
     for (int i = 0; i < ISO_WINDOWS; i++)
         if (n > it->window[i].first && n <= it->window[i].last)
             add_to_window(&it->window[i], n, growth, step, turn->observable);
     iso_window *window = &it->window[(unsigned long)it->number % ISO_WINDOWS];
     if (n < window->last) return;
-    judge(it, window);
+    look(it, window);
     begin_look(it, it->number++ + ISO_WINDOWS);
 }
 
@@ -317,8 +295,6 @@ iso_verdict iso_indicators_verdict(const iso_indicators *it)
 {
     return (iso_verdict)it->verdict;
 }
-
-/* --- the indication --------------------------------------------------------------------------------------------- */
 
 void iso_indicators_read(const iso_indicators *it, iso_indication *result)
 {

@@ -9,7 +9,7 @@
  *     }
  *     iso_indicators_read(&it, &result);                          result.verdict, result.exponent[ISO_CLOCK_T]
  *
- * Each sample gives the lengths of two deviations d1, d2, which start orthogonal, with length 1. After n turns
+ * Each sample has the lengths of two deviations d1, d2, which start orthogonal, with length 1. After n turns
  * D_n = sqrt((|d1|^2 + |d2|^2)/2). D_n is the same for every such pair. On a regular orbit D_n^2 is a + b n + c n^2,
  * times a bounded factor that depends on the place only. On a chaotic orbit D_n^2 grows like exp(2 lam n).
  *

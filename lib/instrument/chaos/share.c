@@ -4,7 +4,7 @@
  * The starts are ISO_SHIFTS copies of the sequence of map/section.h, each with a random shift of its own. Start i is
  * the next point of copy i modulo ISO_SHIFTS. So start i does not depend on the number of starts, and the first N
  * starts are spread evenly for every N. The points of one copy depend on each other, but the copies are independent:
- * the scatter of their counts tells the error, whatever the shape of the set is.
+ * the scatter of their counts shows the error, whatever the shape of the set is.
  *
  * The interval. Let copy r have n_r points, f_r of them in the set; n and f are the sums, p = f/n. Then
  * v = R/(R - 1) sum (f_r - p n_r)^2/n^2 estimates the variance of p, and D = v n/(p (1 - p)) compares it with that of
@@ -22,26 +22,18 @@
 
 #include "instrument/chaos/chaos_impl.h"
 
-/* v n^2; 0 if all copies agree. *copies: those with a start. */
-static double scatter(const size_t count[], const size_t found[], double share, int *copies)
-{
-    double square = 0;
-    *copies = 0;
-    for (int r = 0; r < ISO_SHIFTS; r++) {
-        const double rest = (double)found[r] - share * (double)count[r];
-        *copies += count[r] > 0;
-        square += rest * rest;
-    }
-    return *copies > 1 ? square * *copies / (*copies - 1) : 0;
-}
-
 void iso_share_interval(const size_t count[ISO_SHIFTS], const size_t found[ISO_SHIFTS], double *low, double *high)
 {
     static const double OUTSIDE = 0.025, AGREE = 1e-9; /* AGREE: less than any scatter of whole numbers is */
-    double n = 0, f = 0;
-    int copies;
-    for (int r = 0; r < ISO_SHIFTS; r++) n += (double)count[r], f += (double)found[r];
-    const double p = f / n, square = scatter(count, found, p, &copies);
+    double n = 0, f = 0, square = 0;                   /* square: v n^2, 0 if all copies agree */
+    int copies = 0;                                    /* those with a start */
+    for (int r = 0; r < ISO_SHIFTS; r++) n += (double)count[r], f += (double)found[r], copies += count[r] > 0;
+    const double p = f / n;
+    for (int r = 0; r < ISO_SHIFTS && copies > 1; r++) {
+        const double rest = (double)found[r] - p * (double)count[r];
+        square += rest * rest;
+    }
+    if (copies > 1) square = square * copies / (copies - 1);
     double middle = p, half;
     if (square > AGREE) {
         const double t = gsl_cdf_tdist_Qinv(OUTSIDE, copies - 1), q = t * t * square / (n * n * p * (1 - p));

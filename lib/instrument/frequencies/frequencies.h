@@ -5,8 +5,8 @@
  *     status = iso_frequencies_find(ctx, &scene, &o, &f);      f.angle[0].frequency[ISO_CLOCK_T], f.rotation
  *
  * A motion on a torus has two angles that grow uniformly in each of the clocks t, tau and s. Where there is a closed
- * solution (exact/exact.h), it gives their frequencies and actions. Elsewhere the frequencies are estimated:
- * - n(t) is computed over many turns, and its lines are found (spectrum.h).
+ * solution (exact/exact.h), it has their frequencies and actions. Elsewhere the frequencies are estimated:
+ * - n(t) is computed over many turns, and its lines are found (spectrum.c).
  * - One frequency is the strongest line of the two components of n that turn about an axis. The other is the
  *   strongest line of the third component that is no multiple of the first.
  * - Two such frequencies are determined only up to integer combinations. Where the problem separates and the motion
@@ -23,7 +23,6 @@
 #include "base/field.h"
 #include "exact/exact.h"
 #include "instrument/frequencies/momentum.h"
-#include "instrument/frequencies/spectrum.h"
 #include "orbit/orbit.h"
 #include "study/study.h"
 #include "study/verdict.h"
@@ -41,14 +40,12 @@ typedef struct iso_frequencies_options {
 /* All NaN: 1000 turns (fewer where |k| < 1/4), up to 16 times as many while the motion is not found regular. */
 static inline iso_frequencies_options iso_frequencies_defaults(void)
 {
-    iso_frequencies_options o = {0};
-    o.turns = o.end = o.samples = NAN;
-    return o;
+    return (iso_frequencies_options){.turns = NAN, .end = NAN, .samples = NAN};
 }
 
 /* One of the two angles. Everything in the caller's units; NaN: not known. */
 typedef struct iso_angle {
-    char what[96];                /* in words: what turns or swings                                     */
+    char what[96];                /* what turns or swings                                               */
     double frequency[ISO_CLOCKS]; /* > 0, radians per unit of the clock                                 */
     double period[ISO_CLOCKS];    /* 2 pi/frequency                                                     */
     double error[ISO_CLOCKS];     /* of the frequency: estimates only                                   */
@@ -63,6 +60,14 @@ typedef struct iso_resonance {
     double beat[ISO_CLOCKS]; /* the time in which p angle[0] - q angle[1] turns once; infinite: never       */
     bool met;                /* the gap is rounding (an estimate: within its error)                         */
 } iso_resonance;
+
+enum { ISO_MAX_LINES = 24 };
+
+/* A line of a signal: a exp(i (frequency (t - t0) + phase)), a = amplitude > 0, t0 the time of the first sample. */
+typedef struct iso_spectral_line {
+    double frequency; /* radians per unit of time, of either sign, |frequency| <= pi/step */
+    double amplitude, phase;
+} iso_spectral_line;
 
 /* A line of n(t), nu = m angle[0].frequency + n angle[1].frequency where `known`. */
 typedef struct iso_identified_line {
@@ -97,7 +102,7 @@ typedef struct iso_frequencies {
     bool unresolved;              /* estimated although there is a closed solution, which needs too many terms   */
     char why[256];                /* estimated: why                                                              */
     iso_exact_kind kind;          /* of the closed solution                                                      */
-    char motion[160];             /* in words                                                                    */
+    char motion[160];             /* as text                                                                     */
     double h, eps;                /* energy, coupling (NaN without a twin) ...                           */
     double H;                     /* ... and level of the point                                          */
     const iso_integral *integral; /* of the ball, beyond h: it is integrable; NULL: none is known        */
@@ -130,7 +135,7 @@ iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene, const 
 iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
                                     iso_frequencies *frequencies);
 
-/* What it tells people, and the lines of its table (frequencies_print.c). */
+/* Its text (frequencies_print.c). */
 void iso_frequencies_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 
 #endif

@@ -1,4 +1,4 @@
-/* frequencies_print.c - what frequencies tells people (study/study.h). */
+/* frequencies_print.c - the text of frequencies (study/study.h). */
 #include <math.h>
 
 #include "instrument/frequencies/frequencies.h"
@@ -35,13 +35,6 @@ static void print_head(FILE *to, const iso_scene *scene, const iso_frequencies *
         fputs("  that is most of them: there is no rotation number\n", to);
 }
 
-static void print_separatrices(FILE *to, const iso_frequencies *f)
-{
-    fputs("\nrelative distance from the separatrix of an unstable rotation\n", to);
-    for (int i = 0; i < f->separatrices; i++)
-        fprintf(to, "  %s: %.15g\n", f->separatrix[i].what, f->separatrix[i].distance);
-}
-
 /* One line: a number in each clock, - where it is not known. */
 static void print_clocks(FILE *to, const char *what, const double x[ISO_CLOCKS])
 {
@@ -52,22 +45,6 @@ static void print_clocks(FILE *to, const char *what, const double x[ISO_CLOCKS])
         else
             fprintf(to, "\t%.15g", x[c]);
     fputs("\n", to);
-}
-
-static void print_angles(FILE *to, const iso_frequencies *f)
-{
-    fputs("\n", to);
-    iso_table_begin(to, 1);
-    fputs("angles in rad\tt\ttau\ts\n", to);
-    for (int i = 0; i < f->angles; i++) {
-        const iso_angle *a = &f->angle[i];
-        fprintf(to, "angle %d: %s\n", i + 1, a->what);
-        print_clocks(to, "frequency", a->frequency);
-        if (f->estimated) print_clocks(to, "its error", a->error);
-        print_clocks(to, "period", a->period);
-        if (!isnan(a->action)) fprintf(to, "action\t%.15g\t\t\n", a->action);
-    }
-    iso_table_end(to);
 }
 
 static void print_resonances(FILE *to, const iso_frequencies *f)
@@ -100,7 +77,22 @@ void iso_frequencies_print(FILE *to, const iso_scene *scene, const void *options
     const iso_frequencies *f = result->found;
     (void)options;
     print_head(to, scene, f);
-    if (f->separatrices > 0) print_separatrices(to, f);
-    if (f->angles > 0) print_angles(to, f);
+    if (f->separatrices > 0) fputs("\nrelative distance from the separatrix of an unstable rotation\n", to);
+    for (int i = 0; i < f->separatrices; i++)
+        fprintf(to, "  %s: %.15g\n", f->separatrix[i].what, f->separatrix[i].distance);
+    if (f->angles > 0) {
+        fputs("\n", to);
+        iso_table_begin(to, 1);
+        fputs("angles in rad\tt\ttau\ts\n", to);
+    }
+    for (int i = 0; i < f->angles; i++) {
+        const iso_angle *a = &f->angle[i];
+        fprintf(to, "angle %d: %s\n", i + 1, a->what);
+        print_clocks(to, "frequency", a->frequency);
+        if (f->estimated) print_clocks(to, "its error", a->error);
+        print_clocks(to, "period", a->period);
+        if (!isnan(a->action)) fprintf(to, "action\t%.15g\t\t\n", a->action);
+    }
+    if (f->angles > 0) iso_table_end(to);
     print_resonances(to, f);
 }

@@ -8,20 +8,15 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 
-static double coupling(const iso_momentum *m, double h)
-{
-    return h * m->det_J; /* k^2 = 1 */
-}
-
 static double sum_of_roots(const iso_momentum *m, double h)
 {
-    return m->b[0] + m->b[1] + m->b[2] + m->H / coupling(m, h);
+    return m->b[0] + m->b[1] + m->b[2] + m->H / (h * m->det_J);
 }
 
 /* F where one of the roots is z. */
 static double F_at(const iso_momentum *m, double h, double z)
 {
-    const double eps = coupling(m, h);
+    const double eps = h * m->det_J; /* k^2 = 1 */
     if (m->k == 1) return 2 * eps * m->b[0] * m->b[1] * m->b[2] / z;
     return 2 * eps / m->det_J * z * (sum_of_roots(m, h) - z);
 }

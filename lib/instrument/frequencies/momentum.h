@@ -46,7 +46,7 @@ bool iso_momentum_at(const iso_params *params, double H, double h, const char *i
 enum { ISO_MOMENTUM_LINES = 4 };
 iso_status iso_momentum_bounds(iso_context *ctx, const iso_momentum *m, double h, iso_record **bounds);
 
-/* What moves how in a part, and which rotation it is, in words. */
+/* What moves how in a part, and which rotation it is, as text. */
 enum { ISO_MOMENTUM_WORDS = 64 };
 void iso_momentum_name_part(const iso_momentum *m, iso_momentum_part part, char words[ISO_MOMENTUM_WORDS]);
 void iso_momentum_name_line(const iso_momentum *m, int i, char words[ISO_MOMENTUM_WORDS]);

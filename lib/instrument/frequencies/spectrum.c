@@ -1,4 +1,14 @@
-/* spectrum.c - the lines of a signal by frequency analysis; the definitions stand in spectrum.h. */
+/* spectrum.c - the lines of a quasi-periodic signal: frequency analysis (J. Laskar, Physica D 67, 1993, 257).
+ *
+ *     x(t) = sum_l a_l exp(i nu_l t),   found one after the other, the largest first: nu maximises
+ *     |phi(nu)|,   phi(nu) = (1/2T) int_-T^T x(t) exp(-i nu t) chi_p(t) dt,
+ *     chi_p(t) = 2^p (p!)^2/(2p)! (1 + cos(pi t/T))^p,   p = 3,
+ *
+ * First the largest bin of a discrete Fourier transform is taken, then Newton's method refines it. Then the
+ * amplitudes of all lines found so far are fitted anew (they are not orthogonal) and taken out of x. Two lines at a
+ * distance d disturb each other like (1/dT)^(2p+1). So the frequencies are exact nearly to rounding if each pair of
+ * lines beats a few dozen times in the signal; a Fourier transform alone finds them to 1/T.
+ */
 #include "instrument/frequencies/frequencies_impl.h"
 
 #include <complex.h>
@@ -18,7 +28,6 @@ enum {
     POWER = 3,       /* p of the window */
     BLOCK = 32,      /* samples over which a phase factor is carried by products */
     ITERATIONS = 12, /* Newton's method has converged long before */
-    SWEEPS = 1       /* times that each line is refined without the others */
 };
 
 /* Times are y = t/T in (-1, 1), counted from the middle; a frequency s = nu T. */
@@ -102,25 +111,6 @@ static double refine(const analysis *z, const double x[], double s)
     return s;
 }
 
-/* The frequency s of the largest bin of the transform of the windowed rest, and its size. */
-static double largest_bin(const analysis *z, double *size)
-{
-    const size_t N = z->count;
-    size_t best = 0;
-    for (size_t j = 0; j < N; j++) {
-        z->work[2 * j] = z->window[j] * z->rest[2 * j];
-        z->work[2 * j + 1] = z->window[j] * z->rest[2 * j + 1];
-    }
-    gsl_fft_complex_forward(z->work, 1, N, z->table, z->space);
-    *size = 0;
-    for (size_t j = 0; j < N; j++) {
-        const double re = z->work[2 * j], im = z->work[2 * j + 1], here = re * re + im * im;
-        if (here > *size) *size = here, best = j;
-    }
-    *size = sqrt(*size) / (double)N;
-    return ISO_PI * (best < N / 2 ? (double)best : (double)best - (double)N);
-}
-
 /* --- all lines -------------------------------------------------------------------------------------------------- */
 
 /* <e_k, e_l> in the window: a sum of Dirichlet's kernels, as (1 + cos x)^p = 2^-p sum_m binomial(2p, p+m) e^(imx). */
@@ -188,14 +178,26 @@ static bool goes_on(analysis *z)
     return !z->stopped;
 }
 
-/* Takes the largest line out of the rest. False: the rest is rounding, or too near to a line found before. */
+/* Takes the largest line out of the rest: from the largest bin of its transform in the window. False: the rest is
+ * rounding, or too near to a line found before. */
 static bool find_line(analysis *z)
 {
-    double size;
-    const double bin = largest_bin(z, &size);
+    const size_t N = z->count;
+    size_t best = 0;
+    double size = 0;
+    for (size_t j = 0; j < N; j++) {
+        z->work[2 * j] = z->window[j] * z->rest[2 * j];
+        z->work[2 * j + 1] = z->window[j] * z->rest[2 * j + 1];
+    }
+    gsl_fft_complex_forward(z->work, 1, N, z->table, z->space);
+    for (size_t j = 0; j < N; j++) {
+        const double re = z->work[2 * j], im = z->work[2 * j + 1], here = re * re + im * im;
+        if (here > size) size = here, best = j;
+    }
+    size = sqrt(size) / (double)N;
     if (z->lines == 0) z->least = LEAST * size;
     if (!(size > z->least)) return false;
-    const double s = refine(z, z->rest, bin);
+    const double s = refine(z, z->rest, ISO_PI * (best < N / 2 ? (double)best : (double)best - (double)N));
     for (int l = 0; l < z->lines; l++)
         if (fabs(s - z->s[l]) < 2 * ISO_PI) return false;
     z->s[z->lines] = s;
@@ -204,35 +206,8 @@ static bool find_line(analysis *z)
     return true;
 }
 
-/* Refines each line once more after the others were taken out, which had shifted it when it was found. */
-static void sweep(analysis *z)
-{
-    for (int l = 0; l < z->lines && goes_on(z); l++) {
-        add_line(z, z->rest, z->s[l], z->a[l]);
-        z->s[l] = refine(z, z->rest, z->s[l]);
-        add_line(z, z->rest, z->s[l], -z->a[l]);
-        project(z, l);
-    }
-    fit(z);
-}
-
-static int by_amplitude(const void *a, const void *b)
-{
-    const double x = ((const iso_spectral_line *)a)->amplitude, y = ((const iso_spectral_line *)b)->amplitude;
-    return (x < y) - (x > y);
-}
-
-static void report_lines(const analysis *z, double step, iso_spectral_line line[])
-{
-    const double T = step * (double)z->count / 2;
-    for (int l = 0; l < z->lines; l++) {
-        const double complex at_start = z->a[l] * cexp(I * z->s[l] * y_of(z, 0));
-        line[l] = (iso_spectral_line){z->s[l] / T, cabs(at_start), carg(at_start)};
-    }
-    qsort(line, (size_t)z->lines, sizeof *line, by_amplitude);
-}
-
-/* In the window chi(y) = prod_{m<=p} 2m/(2m-1) cos^2p(pi y/2), of mean 1. */
+/* In the window chi(y) = prod_{m<=p} 2m/(2m-1) cos^2p(pi y/2), of mean 1. Each line is refined once more after the
+ * others were taken out, which had shifted it when it was found. */
 static void find_lines(analysis *z, int most)
 {
     double peak = 1;
@@ -240,7 +215,19 @@ static void find_lines(analysis *z, int most)
     for (size_t j = 0; j < z->count; j++) z->window[j] = peak * pow(cos(ISO_PI / 2 * y_of(z, j)), 2 * POWER);
     memcpy(z->rest, z->signal, 2 * z->count * sizeof *z->signal);
     while (z->lines < most && goes_on(z) && find_line(z)) continue;
-    for (int i = 0; i < SWEEPS && z->lines > 0; i++) sweep(z);
+    for (int l = 0; l < z->lines && goes_on(z); l++) {
+        add_line(z, z->rest, z->s[l], z->a[l]);
+        z->s[l] = refine(z, z->rest, z->s[l]);
+        add_line(z, z->rest, z->s[l], -z->a[l]);
+        project(z, l);
+    }
+    if (z->lines > 0) fit(z);
+}
+
+static int by_amplitude(const void *a, const void *b)
+{
+    const double x = ((const iso_spectral_line *)a)->amplitude, y = ((const iso_spectral_line *)b)->amplitude;
+    return (x < y) - (x > y);
 }
 
 iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t count, double step, int most,
@@ -263,7 +250,11 @@ iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t cou
         z.rest = z.window + count;
         z.work = z.window + 3 * count;
         find_lines(&z, most);
-        report_lines(&z, step, line);
+        for (int l = 0; l < z.lines; l++) {
+            const double complex at_start = z.a[l] * cexp(I * z.s[l] * y_of(&z, 0));
+            line[l] = (iso_spectral_line){z.s[l] / (step * (double)count / 2), cabs(at_start), carg(at_start)};
+        }
+        qsort(line, (size_t)z.lines, sizeof *line, by_amplitude);
         *found = z.stopped ? 0 : z.lines;
     }
     gsl_fft_complex_workspace_free(z.space);

@@ -95,7 +95,8 @@ static iso_status compare_with_known(search *s, int degree, const integral_part 
     if (!work) return iso_context_no_memory(s->ctx, "%zu samples", s->samples.rows);
     for (int i = 0; i < s->out->known_count; i++) {
         iso_integral_known *known = &s->out->known[i];
-        const double residual = known->degree == 0 ? residual_of(s, s->known[i], part, work) : INFINITY;
+        if (known->degree > 0) continue;
+        const double residual = residual_of(s, s->known[i], part, work);
         known->constant = known->constant || isnan(residual);
         if (!(residual < known->residual)) continue;
         known->residual = residual;
@@ -125,23 +126,9 @@ static void add_gradients(search *s, const integral_part *part)
     }
 }
 
-/* The rank of the gradients: at most 2, where it is largest. */
-static int independent(const search *s)
-{
-    const double small = 1e-10; /* the square of 1e-5: rounding errors are smaller */
-    int most = 0;
-    for (int i = 0; i < PROBES; i++) {
-        const double(*g)[2] = s->gradient[i];
-        const double half = (g[0][0] + g[1][1]) / 2, root = hypot((g[0][0] - g[1][1]) / 2, g[0][1]);
-        const int rank = half + root < small ? 0 : half - root < small * (half + root) ? 1 : 2;
-        if (rank > most) most = rank;
-    }
-    return most;
-}
-
 /* --- the spaces ------------------------------------------------------------------------------------------------- */
 
-static void note_part(const search *s, const integral_part *part, iso_integral_degree *at)
+static void add_part(const search *s, const integral_part *part, iso_integral_degree *at)
 {
     at->terms += part->terms;
     at->functions += part->functions;
@@ -173,7 +160,7 @@ static iso_status search_degree(search *s, int degree)
         iso_status status = iso_integral_search_part(s->ctx, &s->samples, &s->space, degree, parity, s->out->delta,
                                                      s->options.within, &part);
         if (status == ISO_OK) {
-            note_part(s, &part, at);
+            add_part(s, &part, at);
             add_gradients(s, &part);
             status = compare_with_known(s, degree, &part);
         }
@@ -208,9 +195,17 @@ static bool has_neighbour(const iso_problem *f)
     return near;
 }
 
+/* How many integrals do not depend on each other: the rank of the gradients, at most 2, where it is largest. */
 static void find_verdict(search *s)
 {
+    const double small = 1e-10; /* the square of 1e-5: rounding errors are smaller */
     iso_integral_search *out = s->out;
+    for (int i = 0; i < PROBES; i++) {
+        double(*g)[2] = s->gradient[i];
+        const double half = (g[0][0] + g[1][1]) / 2, root = hypot((g[0][0] - g[1][1]) / 2, g[0][1]);
+        const int rank = half + root < small ? 0 : half - root < small * (half + root) ? 1 : 2;
+        if (rank > out->independent) out->independent = rank;
+    }
     size_t doubtful = 0;
     bool known = false;
     double before = INFINITY; /* the smallest other value in lower degrees than that of the first integral */
@@ -219,7 +214,6 @@ static void find_verdict(search *s)
         before = fmin(before, out->at[first].smallest);
     for (int d = 1; d <= out->degrees; d++) doubtful += out->at[d].doubtful;
     for (int i = 0; i < out->known_count; i++) known = known || out->known[i].degree > 0;
-    out->independent = independent(s);
     out->near = has_neighbour(&s->samples.problem) || (first <= out->degrees && before < 1e-3);
     out->verdict = ISO_INTEGRALS_NONE;
     if (out->independent > 0 && (known || !out->near))

@@ -80,13 +80,8 @@ typedef struct iso_integral_search_options {
 /* Degree 2, coefficients of degree 2, 64 orbits of 50 turns, seed 0, within 1e-10, tolerance 1e-14. */
 static inline iso_integral_search_options iso_integral_search_defaults(void)
 {
-    iso_integral_search_options o = {0};
-    o.degree = 2;
-    o.coefficients = -1;
-    o.turns = 50;
-    o.within = 1e-10;
-    o.tolerance = 1e-14;
-    return o;
+    return (iso_integral_search_options){
+        .degree = 2, .coefficients = -1, .turns = 50, .within = 1e-10, .tolerance = 1e-14};
 }
 
 typedef enum iso_integral_verdict {

@@ -84,7 +84,7 @@ static inline bool integral_is_found(const iso_integral_value *v, double within)
 /* "none", "found", "undecided" */
 const char *iso_integral_verdict_name(int verdict);
 
-/* What the study finds: what was asked, and the answer. */
+/* The result of the study: what was asked, and the answer. */
 typedef struct iso_integrals_found {
     iso_integral_search_options how;
     iso_integral_search search;

@@ -54,59 +54,51 @@ iso_status iso_integral_prepare(iso_context *ctx, const iso_problem *scene, uint
     return ISO_OK;
 }
 
-/* A turn of n at |k w|, with w^2 = 2 h/J of the middle moment J, in t; off H = 0, the time between two crossings of
- * the section, in s. */
-static double turn_of(const integral_samples *s)
-{
-    const iso_params *p = &s->problem.p;
-    int axis[3];
-    double W[2];
-    sort_by(p->J, axis);
-    iso_section_bounds(iso_integral_motion(s), s->axis, W);
-    if (s->problem.energy != 0) return 4 * ISO_PI / (W[0] + W[1]);
-    const double h = iso_energy(p, s->problem.eps);
-    return 2 * ISO_PI / (fabs(p->k) * sqrt(2 * h / p->J[axis[1]]));
-}
-
-/* One time at random in each of the equal parts of the whole. */
+/* One time at random in each of the equal parts of the whole. A turn of n is at |k w|, with w^2 = 2 h/J of the middle
+ * moment J, in t; off H = 0, the time between two crossings of the section, in s. */
 static iso_status choose_times(iso_context *ctx, const iso_integral_search_options *o, const integral_samples *s,
                                double times[ISO_INTEGRAL_ROWS])
 {
+    const iso_params *p = &s->problem.p;
+    const double h = iso_energy(p, s->problem.eps);
+    int axis[3];
+    double W[2];
     iso_random *random = iso_random_create((unsigned long)o->seed + 1);
     if (!random) return iso_context_no_memory(ctx, "random numbers");
-    const double part = o->turns * turn_of(s) / ISO_INTEGRAL_ROWS;
+    sort_by(p->J, axis);
+    iso_section_bounds(iso_integral_motion(s), s->axis, W);
+    const double turn =
+        s->problem.energy != 0 ? 4 * ISO_PI / (W[0] + W[1]) : 2 * ISO_PI / (fabs(p->k) * sqrt(2 * h / p->J[axis[1]]));
+    const double part = o->turns * turn / ISO_INTEGRAL_ROWS;
     for (int i = 0; i < ISO_INTEGRAL_ROWS; i++) times[i] = part * (i + iso_random_uniform(random, 0, 1));
     iso_random_free(random);
     return ISO_OK;
 }
 
-/* Goes back to the level along the gradient of H, where M is too small to be stretched. */
-static void go_to_level(const iso_problem *f, double y[ISO_STATE], double off)
-{
-    double slope[ISO_STATE], *dV = slope + 3;
-    const double q = dot_diag(y + 3, f->p.J, y + 3), factor = 2 * f->eps / f->p.k * pow(q, -1 - 1 / f->p.k);
-    copy(y, slope, 3);
-    diag(f->p.J, y + 3, dV);
-    scale(dV, factor);
-    remove_along(dV, y + 3);
-    const double square = dot(slope, slope) + dot(dV, dV);
-    for (int i = 0; i < ISO_STATE && square > 0; i++) y[i] -= off / square * slope[i];
-    make_unit(y + 3);
-    remove_along(y, y + 3);
-}
-
-/* Takes rounding errors across the surface away: on it, some functions are zero. Returns the error of the energy,
- * relative to its terms. */
+/* Takes rounding errors across the surface away: on it, some functions are zero. M is stretched to the level; where it
+ * is too small for that, the state goes along the gradient of H. Returns the error of the energy, relative to its
+ * terms. */
 static double move_to_surface(const iso_problem *f, double y[ISO_STATE])
 {
     double size;
     make_unit(y + 3);
     remove_along(y, y + 3);
     const double off = iso_system_point.energy(f, y, &size) - f->energy, T = dot(y, y) / 2;
-    if (T > 0.1 * size)
-        scale(y, sqrt((T - off) / T));
-    else
-        for (int pass = 0; pass < 2; pass++) go_to_level(f, y, iso_system_point.energy(f, y, &size) - f->energy);
+    const bool stretches = T > 0.1 * size;
+    if (stretches) scale(y, sqrt((T - off) / T));
+    for (int pass = 0; pass < 2 && !stretches; pass++) {
+        const double left = iso_system_point.energy(f, y, &size) - f->energy;
+        const double q = dot_diag(y + 3, f->p.J, y + 3), factor = 2 * f->eps / f->p.k * pow(q, -1 - 1 / f->p.k);
+        double slope[ISO_STATE], *dV = slope + 3;
+        copy(y, slope, 3);
+        diag(f->p.J, y + 3, dV);
+        scale(dV, factor);
+        remove_along(dV, y + 3);
+        const double square = dot(slope, slope) + dot(dV, dV);
+        for (int i = 0; i < ISO_STATE && square > 0; i++) y[i] -= left / square * slope[i];
+        make_unit(y + 3);
+        remove_along(y, y + 3);
+    }
     return off == 0 ? 0 : off / size;
 }
 

@@ -135,30 +135,6 @@ static double *column_of(const algebra *a, size_t i)
     return a->column + a->order[i] * a->samples->rows;
 }
 
-static bool begin(algebra *a, const integral_samples *samples, size_t terms)
-{
-    a->samples = samples;
-    a->terms = terms;
-    a->term = malloc(terms * sizeof *a->term);
-    a->length = calloc(terms, sizeof *a->length);
-    a->column = malloc(terms * samples->rows * sizeof *a->column);
-    a->R = calloc(terms * terms, sizeof *a->R);
-    a->order = malloc(terms * sizeof *a->order);
-    return a->term && a->length && a->column && a->R && a->order;
-}
-
-static bool begin_basis(algebra *a)
-{
-    const size_t n = a->functions;
-    a->varying = gsl_matrix_alloc(a->samples->rows, n);
-    a->V = gsl_matrix_alloc(n, n);
-    a->square = gsl_matrix_alloc(n, n);
-    a->triangle = gsl_matrix_calloc(n, n);
-    a->work = gsl_vector_alloc(n);
-    a->S = gsl_vector_alloc(n);
-    return a->varying && a->V && a->square && a->triangle && a->work && a->S;
-}
-
 static void end(algebra *a)
 {
     free(a->term);
@@ -255,21 +231,6 @@ static bool make_basis(algebra *a)
     return true;
 }
 
-/* Q without the mean of each orbit. */
-static void take_means_away(algebra *a)
-{
-    const size_t each = ISO_INTEGRAL_ROWS;
-    for (size_t j = 0; j < a->functions; j++)
-        for (size_t orbit = 0; orbit < a->samples->orbits; orbit++) {
-            const double *q = column_of(a, j) + orbit * each;
-            double mean = 0;
-            for (size_t i = 0; i < each; i++) mean += q[i] / (double)each;
-            for (size_t i = 0; i < each; i++) gsl_matrix_set(a->varying, orbit * each + i, j, q[i] - mean);
-        }
-    for (size_t j = 0; j < a->functions; j++)
-        for (size_t i = 0; i <= j; i++) gsl_matrix_set(a->triangle, i, j, a->R[a->order[j] * a->terms + i]);
-}
-
 /* --- what is kept ----------------------------------------------------------------------------------------------- */
 
 /* The singular values, which GSL lets fall, and the functions found: Q v, v the column of V. Its coefficients c in unit
@@ -310,13 +271,32 @@ static bool keep(algebra *a, unsigned parity, double delta, double within, integ
     return true;
 }
 
+/* Q, and the singular values of Q without the mean of each orbit. */
 static iso_status solve(iso_context *ctx, algebra *a)
 {
+    const size_t each = ISO_INTEGRAL_ROWS;
     if (!fill(a)) return ISO_FAIL_NUMERICAL(ctx, "powers of M do not fit a double for this k and J");
-    if (!make_basis(a) || (a->functions > 0 && !begin_basis(a)))
-        return iso_context_no_memory(ctx, "%zu functions", a->functions);
-    if (a->functions == 0) return ISO_OK;
-    take_means_away(a);
+    const bool made = make_basis(a);
+    const size_t n = a->functions;
+    if (!made) return iso_context_no_memory(ctx, "%zu functions", n);
+    if (n == 0) return ISO_OK;
+    a->varying = gsl_matrix_alloc(a->samples->rows, n);
+    a->V = gsl_matrix_alloc(n, n);
+    a->square = gsl_matrix_alloc(n, n);
+    a->triangle = gsl_matrix_calloc(n, n);
+    a->work = gsl_vector_alloc(n);
+    a->S = gsl_vector_alloc(n);
+    if (!a->varying || !a->V || !a->square || !a->triangle || !a->work || !a->S)
+        return iso_context_no_memory(ctx, "%zu functions", n);
+    for (size_t j = 0; j < n; j++) {
+        for (size_t orbit = 0; orbit < a->samples->orbits; orbit++) {
+            const double *q = column_of(a, j) + orbit * each;
+            double mean = 0;
+            for (size_t i = 0; i < each; i++) mean += q[i] / (double)each;
+            for (size_t i = 0; i < each; i++) gsl_matrix_set(a->varying, orbit * each + i, j, q[i] - mean);
+        }
+        for (size_t i = 0; i <= j; i++) gsl_matrix_set(a->triangle, i, j, a->R[a->order[j] * a->terms + i]);
+    }
     gsl_linalg_SV_decomp_mod(a->varying, a->square, a->V, a->S, a->work);
     return ISO_OK;
 }
@@ -324,14 +304,21 @@ static iso_status solve(iso_context *ctx, algebra *a)
 iso_status iso_integral_search_part(iso_context *ctx, const integral_samples *samples, const integral_space *space,
                                     int degree, unsigned parity, double delta, double within, integral_part *part)
 {
-    algebra a = {0};
-    *part = (integral_part){.terms = iso_integral_terms(space, degree, parity, NULL)};
-    if (part->terms == 0) return ISO_OK;
+    const size_t terms = iso_integral_terms(space, degree, parity, NULL);
+    *part = (integral_part){.terms = terms};
+    if (terms == 0) return ISO_OK;
+    algebra a = {.samples = samples,
+                 .terms = terms,
+                 .term = malloc(terms * sizeof *a.term),
+                 .length = calloc(terms, sizeof *a.length),
+                 .column = malloc(terms * samples->rows * sizeof *a.column),
+                 .R = calloc(terms * terms, sizeof *a.R),
+                 .order = malloc(terms * sizeof *a.order)};
     iso_status status = ISO_OK;
-    if (begin(&a, samples, part->terms))
+    if (a.term && a.length && a.column && a.R && a.order)
         iso_integral_terms(space, degree, parity, a.term);
     else
-        status = iso_context_no_memory(ctx, "%zu terms", part->terms);
+        status = iso_context_no_memory(ctx, "%zu terms", terms);
     if (status == ISO_OK) status = solve(ctx, &a);
     if (status == ISO_OK && a.functions > 0 && !keep(&a, parity, delta, within, part))
         status = iso_context_no_memory(ctx, "%zu functions", a.functions);

@@ -6,52 +6,6 @@
 #include "study/options_impl.h"
 #include "study/study_impl.h"
 
-static void print_head(FILE *to, const iso_integral_search_options *o, const iso_scene *scene,
-                       const iso_integral_search *r)
-{
-    iso_params_print(to, &scene->params);
-    if (r->level != 0) fprintf(to, "; level (H/eps) J2^(1/k) = %.10g", r->level);
-    fprintf(to,
-            "\n"
-            "%zu orbits of %s turns, %d samples of each; relative error of a sample about %.0e\n"
-            "functions %s, |b| <= %d; a value is the variation of a function along orbits, divided by its size: 0 "
-            "for an integral\n\n",
-            r->orbits, ISO_SHORT(o->turns), ISO_INTEGRAL_ROWS, r->delta,
-            iso_integral_energy_degree(r) == 1 ? "v^c M^a gamma^b, v = q^(-1/(2k)), |a| + c <= degree, c <= 1"
-                                               : "h^j M^a gamma^b, |a| + 2 j = degree",
-            r->coefficients);
-}
-
-static void print_value(FILE *to, double x)
-{
-    if (isnan(x))
-        fputs("\t-", to);
-    else
-        fprintf(to, "\t%.1e", x);
-}
-
-static void print_degree(FILE *to, const iso_integral_degree *at)
-{
-    fprintf(to, "%d\t%zu\t%zu\t%zu\t%zu", at->degree, at->functions, at->found, at->further, at->doubtful);
-    print_value(to, at->largest);
-    print_value(to, at->smallest);
-    fputs("\n", to);
-}
-
-static void print_known(FILE *to, const iso_integral_search *r)
-{
-    const int energy = iso_integral_energy_degree(r);
-    if (energy > 0) fprintf(to, "  the energy, a constant on the level: found in degree %d\n", energy);
-    for (int i = 0; i < r->known_count; i++) {
-        const iso_integral_known *known = &r->known[i];
-        fprintf(to, "  %s = %s: ", known->name, known->doc);
-        if (known->degree > 0)
-            fprintf(to, "found in degree %d, to %.1e\n", known->degree, known->residual);
-        else
-            fprintf(to, known->constant ? "a constant on the level\n" : "not in this space\n");
-    }
-}
-
 static void print_verdict(FILE *to, const iso_integral_search_options *o, const iso_integral_search *r)
 {
     if (r->verdict == ISO_INTEGRALS_FOUND)
@@ -68,6 +22,18 @@ static void print_verdict(FILE *to, const iso_integral_search_options *o, const 
         fprintf(to, "undecided: there are values between their error and %s\n", ISO_SHORT(o->within));
 }
 
+static void print_known(FILE *to, const iso_integral_search *r, int energy)
+{
+    if (energy > 0) fprintf(to, "  the energy, a constant on the level: found in degree %d\n", energy);
+    for (const iso_integral_known *known = r->known; known < r->known + r->known_count; known++) {
+        fprintf(to, "  %s = %s: ", known->name, known->doc);
+        if (known->degree > 0)
+            fprintf(to, "found in degree %d, to %.1e\n", known->degree, known->residual);
+        else
+            fputs(known->constant ? "a constant on the level\n" : "not in this space\n", to);
+    }
+}
+
 void iso_integrals_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
 {
     const iso_integral_search_options *o = options;
@@ -75,11 +41,30 @@ void iso_integrals_print(FILE *to, const iso_scene *scene, const void *options, 
     const iso_integral_search *r = &found->search;
     print_verdict(to, o, r);
     fprintf(to, "theory: %s: %s\n\n", iso_integrability_name(found->theory.kind), found->theory.why);
-    print_head(to, o, scene, r);
+    const int energy = iso_integral_energy_degree(r);
+    iso_params_print(to, &scene->params);
+    if (r->level != 0) fprintf(to, "; level (H/eps) J2^(1/k) = %.10g", r->level);
+    fprintf(to,
+            "\n"
+            "%zu orbits of %s turns, %d samples of each; relative error of a sample about %.0e\n"
+            "functions %s, |b| <= %d; a value is the variation of a function along orbits, divided by its size: 0 "
+            "for an integral\n\n",
+            r->orbits, ISO_SHORT(o->turns), ISO_INTEGRAL_ROWS, r->delta,
+            energy == 1 ? "v^c M^a gamma^b, v = q^(-1/(2k)), |a| + c <= degree, c <= 1"
+                        : "h^j M^a gamma^b, |a| + 2 j = degree",
+            r->coefficients);
     iso_table_begin(to, 1);
     fputs("degree\tfunctions\tintegrals\tfurther\tdoubtful\ttheir values up to\tsmallest other value\n", to);
-    for (int d = 1; d <= r->degrees; d++) print_degree(to, &r->at[d]);
+    for (const iso_integral_degree *at = &r->at[1]; at <= &r->at[r->degrees]; at++) {
+        fprintf(to, "%d\t%zu\t%zu\t%zu\t%zu", at->degree, at->functions, at->found, at->further, at->doubtful);
+        for (int i = 0; i < 2; i++) {
+            const double x = i == 0 ? at->largest : at->smallest;
+            fprintf(to, "\t%s", isnan(x) ? "-" : "");
+            if (!isnan(x)) fprintf(to, "%.1e", x);
+        }
+        fputs("\n", to);
+    }
     iso_table_end(to);
     fputs("\n", to);
-    print_known(to, r);
+    print_known(to, r, energy);
 }

@@ -71,9 +71,7 @@ typedef struct iso_continuation_options {
 
 static inline iso_continuation_options iso_continuation_defaults(void)
 {
-    iso_continuation_options o = {0};
-    o.longest = 0.03;
-    return o;
+    return (iso_continuation_options){.longest = 0.03};
 }
 
 typedef struct iso_continuations {

@@ -1,8 +1,8 @@
 /* continuation_impl.h - what the files of followed orbits share.
  *
  *     continuation.c          the call, the two directions, the branches that are switched to
- *     continuation_curve.c    the curve F(u, value) = 0: one evaluation, the corrector, one step
- *     continuation_events.c   what happens between two points of the curve, and exactly where; what branches off
+ *     continuation_curve.c    the curve F(u, value) = 0: one evaluation, the corrector, one step; what happens between
+ *                             two points, and exactly where; what branches off
  */
 #ifndef ISO_STUDY_CONTINUATION_IMPL_H
 #define ISO_STUDY_CONTINUATION_IMPL_H
@@ -51,7 +51,11 @@ iso_branch_point iso_continuation_read(const iso_continuation_point *at, double 
 /* Adds the events between a and b, ds apart. */
 iso_status iso_continuation_events(const iso_continuation *f, iso_branch *b, const iso_continuation_point *a,
                                    const iso_continuation_point *to, double ds, double arc);
-iso_status iso_continuation_add_event(const iso_continuation *f, iso_branch *b, const iso_branch_event *e);
+static inline iso_status iso_continuation_add_event(const iso_continuation *f, iso_branch *b,
+                                                    const iso_branch_event *e)
+{
+    return iso_periodic_append(f->ctx, &b->event, &b->events, e, sizeof *e);
+}
 
 /* The collision beyond a point near the end of the line; false: there is none near. */
 bool iso_continuation_collision(const iso_continuation *f, const iso_continuation_point *a,

@@ -83,11 +83,6 @@ static double step_from(const hill_pace *s, double phi)
 #define TERMS 70 /* 0.3^70 = 3e-37 */
 #include "instrument/periodic/hill_impl.h"
 
-void iso_hill_matrix_wide(double k, const double J[3], double energy, int axis, iso_wide y[2][2])
-{
-    hill_wide_turn(k, J[axis], J[(axis + 1) % 3], J[(axis + 2) % 3], energy, y);
-}
-
 bool iso_hill_has_rotation(double k, const double J[3], double energy, int axis)
 {
     return level_at(k, energy, J[(axis + 1) % 3]) > 0 && level_at(k, energy, J[(axis + 2) % 3]) > 0;
@@ -143,7 +138,7 @@ static bool find_rotation(iso_periodic_work *w, int axis)
         for (int c = 0; c < ISO_CLOCKS; c++) r->clock[c] = NAN;
         return true;
     }
-    iso_hill_matrix_wide(p->k, p->J, w->map.energy, axis, Y);
+    hill_wide_turn(p->k, p->J[axis], p->J[(axis + 1) % 3], p->J[(axis + 2) % 3], w->map.energy, Y);
     const iso_wide wide = Y[0][0] + Y[1][1];
     const iso_fine trace = iso_fine_of(wide);
     r->half_turn_trace = trace.head;

@@ -12,23 +12,19 @@ typedef struct HILL(problem) {
     NUMBER k, Ji, m, d, energy;
 } HILL(problem);
 
-/* The series of cos 2 phi and sin 2 phi times d about phi, in powers of h. */
-static void HILL(circle)(const HILL(problem) * p, NUMBER phi, NUMBER cosine[], NUMBER sine[], int order)
+/* The series of c = d cos 2 phi, s = d sin 2 phi and u about phi, in powers of h:
+ *
+ *     n q u_n = sum_{j = 1..n} ((1 + 1/k) j - (n - j)) c_j u_{n-j}
+ */
+static void HILL(series)(const HILL(problem) * p, NUMBER phi, NUMBER c[], NUMBER s[], NUMBER u[], int order)
 {
-    cosine[0] = p->d * COS(2 * phi);
-    sine[0] = p->d * SIN(2 * phi);
-    for (int n = 1; n <= order; n++) {
-        cosine[n] = -2 * sine[n - 1] / n;
-        sine[n] = 2 * cosine[n - 1] / n;
-    }
-}
-
-/* The series of u: n q u_n = sum_{j = 1..n} ((1 + 1/k) j - (n - j)) c_j u_{n-j}. */
-static void HILL(level)(const HILL(problem) * p, const NUMBER c[], NUMBER u[], int order)
-{
+    c[0] = p->d * COS(2 * phi);
+    s[0] = p->d * SIN(2 * phi);
     const NUMBER q = p->m + c[0], power = 1 + 1 / p->k;
     u[0] = p->energy * q * POW(q, 1 / p->k);
     for (int n = 1; n <= order; n++) {
+        c[n] = -2 * s[n - 1] / n;
+        s[n] = 2 * c[n - 1] / n;
         u[n] = 0;
         for (int j = 1; j <= n && p->energy != 0; j++) u[n] += (power * j - (n - j)) * c[j] * u[n - j];
         u[n] /= n * q;
@@ -43,8 +39,7 @@ static void HILL(level)(const HILL(problem) * p, const NUMBER c[], NUMBER u[], i
 static void HILL(step)(const HILL(problem) * p, NUMBER phi, NUMBER h, NUMBER y[2][2])
 {
     NUMBER c[TERMS + 3], s[TERMS + 3], u[TERMS + 3], a[TERMS + 3];
-    HILL(circle)(p, phi, c, s, TERMS);
-    HILL(level)(p, c, u, TERMS);
+    HILL(series)(p, phi, c, s, u, TERMS);
     const NUMBER q = p->m + c[0] + u[0], keep = (1 - p->k) / p->k, pull = (p->Ji - (1 - p->k) * p->m) / p->k;
     for (int column = 0; column < 2; column++) {
         a[0] = y[0][column];

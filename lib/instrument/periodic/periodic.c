@@ -76,7 +76,7 @@ static iso_status work(iso_periodic_work *w)
     iso_periodic *out = w->out;
     if (out->count > 0) qsort(out->orbit, out->count, sizeof *out->orbit, by_period);
     for (size_t i = 0; i < out->count; i++) out->orbit[i].number = i + 1, out->orbit[i].polished = w->options.polish;
-    for (int a = 0; a < 3; a++) out->rotation[a].polished = w->options.polish;
+    for (int a = 0; a < 3; a++) out->rotation[a].polished = w->options.polish && !out->rotation[a].oscillates;
     return status;
 }
 
@@ -90,7 +90,6 @@ iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_
     w.out = calloc(1, sizeof *w.out);
     if (!w.out) return iso_context_no_memory(ctx, "periodic orbits");
     iso_status status = work(&w);
-    free(w.folded);
     if (status != ISO_OK && status != ISO_STOPPED) iso_periodic_free(w.out), w.out = NULL;
     *found = w.out;
     return status;

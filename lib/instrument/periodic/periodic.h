@@ -125,10 +125,7 @@ typedef struct iso_periodic_options {
 /* Symmetric orbits of period 6 at most. */
 static inline iso_periodic_options iso_periodic_defaults(void)
 {
-    iso_periodic_options o = {0};
-    o.period = 6;
-    o.grid = 2000;
-    return o;
+    return (iso_periodic_options){.period = 6, .grid = 2000};
 }
 
 typedef struct iso_periodic {

@@ -44,12 +44,6 @@ static bool is_inside(const void *row)
     return ((const iso_rotation *)row)->x < 1;
 }
 
-static bool has_digits(const void *row)
-{
-    const iso_rotation *r = row;
-    return r->polished && !r->oscillates;
-}
-
 static void find_rotation_digits(const void *row, int i, iso_value *v)
 {
     const iso_rotation *r = row;
@@ -72,8 +66,8 @@ static const iso_field rotation_fields[] = {
     ISO_STRUCT(iso_rotation, "", half, multipliers, "of half a turn", .there = rotates, .how = ISO_OPTIONAL),
     FIELD("", clock, "time", "a whole turn in this clock", .word = iso_clock_word, .there = rotates,
           .how = ISO_OPTIONAL),
-    ISO_FOUND("half_turn_trace_digits", ISO_FIELD_TEXT, find_rotation_digits, "", "all digits", .there = has_digits,
-              .how = ISO_OPTIONAL),
+    ISO_FOUND("half_turn_trace_digits", ISO_FIELD_TEXT, find_rotation_digits, "", "all digits",
+              ISO_WHEN(iso_rotation, polished), .how = ISO_OPTIONAL),
     ISO_FIELD_END,
 };
 #undef FIELD

@@ -2,11 +2,11 @@
  *
  *     hill.c                 the rotations, by Hill's equation
  *     periodic.c             the call: what is refused, the order of the work, the list
- *     periodic_map.c         the map g (half a return and T) and f = g g: many points in lanes, one in more digits
- *     periodic_line.c        the six symmetry lines, and shots from one of them to itself
+ *     periodic_map.c         the map g (half a return and T) and f = g g: many points in lanes, one in more digits;
+ *                            the six symmetry lines, and shots from one of them to itself
  *     periodic_search.c      symmetric orbits along the symmetry lines; other orbits from a grid
- *     periodic_solve.c       an orbit from a place near it: digits, trace, error, closure
- *     periodic_orbit.c       the list: what is new, symmetry, copies
+ *     periodic_orbit.c       an orbit from a place near it: digits, trace, error, closure; the list: what is new,
+ *                            symmetry, copies
  *     periodic_study.c       what is typed, and the tables
  *
  * All of them compute in own units with eps = 1, on the level H = energy of the point.
@@ -55,26 +55,15 @@ typedef struct iso_periodic_point {
 iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const double (*from)[2], int halves,
                              bool whole, double tolerance, iso_periodic_point *to);
 
-/* to[i]: the first crossing of the start half way at u[i], see iso_return_start, without slopes. NaN: it failed. */
-iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start start, size_t count,
-                                   const double u[], iso_periodic_point *to);
-
 /* A piece of an orbit in more digits: its end, the derivative, and the clocks that pass. */
 typedef struct iso_periodic_fine {
     iso_wide to[2], slope[2][2], clock[ISO_CLOCKS];
     iso_wide determinant; /* of slope: the product of those of the returns, which do not cancel */
 } iso_periodic_fine;
 
-/* The piece `first`, and then `next`, which begins at its end. *both is neither of them. */
-void iso_periodic_join(const iso_periodic_fine *first, const iso_periodic_fine *next, iso_periodic_fine *both);
-
 /* g^halves of a point. path[n - 1] = g^n of it, n = 1 to halves; NULL: not asked. False: it failed. */
 bool iso_periodic_far(const iso_periodic_map *map, const iso_return_build *code, const iso_wide from[2], int halves,
                       double (*path)[2], iso_periodic_fine *found);
-
-/* From a start half way to its first crossing; the derivative by (u, c). False: it failed. */
-bool iso_periodic_enter(const iso_periodic_map *map, const iso_return_build *code, iso_return_start start, iso_wide u,
-                        iso_periodic_fine *found);
 
 /* The law of the derivative's determinant, from l to another l: G(l)/G(l'). */
 iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_wide to);
@@ -148,8 +137,6 @@ typedef struct iso_periodic_work {
     iso_motion_level on;           /* of the scene */
     double unit_clock[ISO_CLOCKS]; /* the scene's clocks of one own clock at eps = 1 */
     iso_periodic *out;
-    struct iso_periodic_folded *folded; /* points of the orbits that are found, for duplicates */
-    size_t folded_count;
 } iso_periodic_work;
 
 /* A place that may lie on an orbit. */
@@ -160,34 +147,15 @@ typedef struct iso_periodic_candidate {
     double l, x; /* its point of the section       */
 } iso_periodic_candidate;
 
-/* All copies of a point, and those by the reversors, become one point of [0, pi/2] x [0, 1]. */
-static inline void iso_periodic_fold(const double z[2], double folded[2])
-{
-    folded[0] = fabs(remainder(z[0], ISO_PI));
-    folded[1] = fabs(z[1]);
-}
-
-/* How far apart two points are, copies counting as one. */
+/* How far apart two points are. All copies of a point, and those by the reversors, count as one: each is the same point
+ * of [0, pi/2] x [0, 1]. */
 static inline double iso_periodic_apart(const double a[2], const double b[2])
 {
-    double p[2], q[2];
-    iso_periodic_fold(a, p);
-    iso_periodic_fold(b, q);
-    return fmax(fabs(p[0] - q[0]), fabs(p[1] - q[1]));
+    return fmax(fabs(fabs(remainder(a[0], ISO_PI)) - fabs(remainder(b[0], ISO_PI))), fabs(fabs(a[1]) - fabs(b[1])));
 }
 
 /* f's l modulo a turn into (-pi, pi]. */
 double iso_periodic_angle(double l);
-
-/* Finds the orbit at a candidate: line, period, u, (l, x), trace, error, determinant, closure, multipliers, torus,
- * clocks in own units; and path[n - 1] = g^n z, n = 1 to 2 period. */
-typedef enum iso_periodic_answer {
-    ISO_PERIODIC_FOUND,
-    ISO_PERIODIC_LOST, /* Newton's method did not end, or the orbit could not be followed */
-    ISO_PERIODIC_NONE  /* a zero of F that is no orbit                                    */
-} iso_periodic_answer;
-iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_return_build *code,
-                                       const iso_periodic_candidate *c, iso_periodic_orbit *o, double (*path)[2]);
 
 /* Solves candidates on all threads, and adds their orbits to the list, unless they are there already or have a
  * smaller period. Errors: ISO_NO_MEMORY; ISO_STOPPED. */
@@ -204,10 +172,6 @@ iso_status iso_periodic_from_grid(iso_periodic_work *w);
 iso_multipliers iso_multipliers_of(double trace, double error, double sense);
 
 /* --- Hill's equation of the rotations (hill.c) ------------------------------------------------------------------ */
-
-/* The matrix of (gamma_i, dgamma_i/dphi) over half a turn about `axis`, on the level H = energy with eps = 1. Where
- * the compiler has no numbers of 128 bits, it has 64 bits. */
-void iso_hill_matrix_wide(double k, const double J[3], double energy, int axis, iso_wide y[2][2]);
 
 /* The half-turn trace of Hill's equation about `axis` (0 to 2) on the level H = energy of the point with eps = 1, by
  * numbers of 64 bits of mantissa, and in *error (NULL: not asked) how far it may be off. NaN for |k| < 1e-4, a moment

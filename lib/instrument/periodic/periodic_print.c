@@ -1,6 +1,6 @@
 /* periodic_print.c - the text of periodic: the list, branches, the chart (study/study.h). */
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 
 #include "base/number_impl.h"
 #include "instrument/periodic/periodic_study_impl.h"
@@ -35,21 +35,20 @@ static void print_rotations(FILE *to, const iso_periodic *found, bool polish)
     iso_table_end(to);
 }
 
-static void print_orbit(FILE *to, const iso_periodic *found, bool polish, size_t i)
+static void print_orbit(FILE *to, const iso_periodic_orbit *o, bool polish)
 {
-    const iso_periodic_orbit *o = &found->orbit[i];
+    const char *stability = iso_stability_name((int)o->multipliers.stability);
     char symmetry[ISO_DIGITS_SIZE], l[ISO_DIGITS_SIZE], x[ISO_DIGITS_SIZE], trace[ISO_DIGITS_SIZE];
     iso_symmetry_text(o->symmetry, symmetry);
-    if (!polish) {
-        fprintf(to, "%zu\t%d\t%.15f\t%.15f\t%.11g\t%.0e\t%s\t%s\t%d\t%.9g\n", i + 1, o->period, o->l, o->x, o->trace,
-                o->error, iso_stability_name((int)o->multipliers.stability), symmetry, o->copies, o->clock[0]);
-        return;
-    }
     iso_periodic_digits(o->l, o->l_tail, l);
     iso_periodic_digits(o->x, o->x_tail, x);
     iso_periodic_digits(o->trace, o->trace_tail, trace);
-    fprintf(to, "%zu\t%d\t%s\t%s\t%s\t%.0e\t%.0e\t%s\t%s\n", i + 1, o->period, l, x, trace, o->error, o->closure,
-            iso_stability_name((int)o->multipliers.stability), symmetry);
+    if (polish)
+        fprintf(to, "%zu\t%d\t%s\t%s\t%s\t%.0e\t%.0e\t%s\t%s\n", o->number, o->period, l, x, trace, o->error,
+                o->closure, stability, symmetry);
+    else
+        fprintf(to, "%zu\t%d\t%.15f\t%.15f\t%.11g\t%.0e\t%s\t%s\t%d\t%.9g\n", o->number, o->period, o->l, o->x,
+                o->trace, o->error, stability, symmetry, o->copies, o->clock[0]);
 }
 
 static void print_list(FILE *to, const iso_params *p, const iso_periodic_options *how, const iso_periodic *f)
@@ -68,7 +67,7 @@ static void print_list(FILE *to, const iso_params *p, const iso_periodic_options
                 how->polish ? "closure\tstability\tsymmetry" : "stability\tsymmetry\tcopies\tt");
     }
     for (size_t i = 0; i < f->count; i++) {
-        print_orbit(to, f, how->polish, i);
+        print_orbit(to, &f->orbit[i], how->polish);
         copies += (size_t)f->orbit[i].copies;
         tori += f->orbit[i].torus;
     }
@@ -141,30 +140,18 @@ static void print_chart(FILE *to, const iso_chart_found *f)
             iso_record_rows(f->borders));
 }
 
-static iso_status describe_list(iso_context *ctx, const iso_scene *scene, const iso_study_result *result)
-{
-    const iso_periodic *f = result->found;
-    const double longest = f->longest, axis = f->axis + 1;
-    char ball[ISO_BALL_SIZE];
-    ISO_TRY(iso_record_set_numbers(ctx, result->table[0], "level", 1, &f->level));
-    ISO_TRY(iso_record_set_numbers(ctx, result->table[0], "longest_period", 1, &longest));
-    ISO_TRY(iso_record_set_numbers(ctx, result->table[0], "axis", 1, &axis));
-    return iso_study_title(ctx, result, "%s: periodic orbits of %d returns at most",
-                           iso_ball_text(ball, &scene->params), f->longest);
-}
-
 static iso_status describe_chart(iso_context *ctx, const iso_study_result *result)
 {
     const iso_stability_options *o = &((const iso_chart_found *)result->found)->how;
     const double *J = o->J;
     const int a = o->moment == 0 ? 1 : 0, b = o->moment == 2 ? 1 : 2; /* the other moments */
+    char level[48] = "";
     if (o->moment == ISO_CHART_LEVEL)
         return iso_study_title(ctx, result, "stable rotations: J = (%.6g, %.6g, %.6g)", J[0], J[1], J[2]);
+    if (o->level != 0) snprintf(level, sizeof level, ", level %.6g", o->level);
     ISO_TRY(iso_record_set_numbers(ctx, result->table[0], "level", 1, &o->level));
-    if (o->level == 0)
-        return iso_study_title(ctx, result, "stable rotations: J%d = %.6g, J%d = %.6g", a + 1, J[a], b + 1, J[b]);
-    return iso_study_title(ctx, result, "stable rotations: J%d = %.6g, J%d = %.6g, level %.6g", a + 1, J[a], b + 1,
-                           J[b], o->level);
+    return iso_study_title(ctx, result, "stable rotations: J%d = %.6g, J%d = %.6g%s", a + 1, J[a], b + 1, J[b],
+                           level);
 }
 
 void iso_periodic_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
@@ -184,7 +171,14 @@ iso_status iso_periodic_describe(iso_context *ctx, const iso_scene *scene, const
     const iso_periodic_request *r = options;
     char ball[ISO_BALL_SIZE];
     if (r->chart) return describe_chart(ctx, result);
-    if (!r->follow) return describe_list(ctx, scene, result);
-    return iso_study_title(ctx, result, "%s: periodic orbits followed along %s", iso_ball_text(ball, &scene->params),
-                           iso_vary_name((int)((const iso_continuations *)result->found)->vary));
+    iso_ball_text(ball, &scene->params);
+    if (r->follow)
+        return iso_study_title(ctx, result, "%s: periodic orbits followed along %s", ball,
+                               iso_vary_name((int)((const iso_continuations *)result->found)->vary));
+    const iso_periodic *f = result->found;
+    const double longest = f->longest, axis = f->axis + 1;
+    ISO_TRY(iso_record_set_numbers(ctx, result->table[0], "level", 1, &f->level));
+    ISO_TRY(iso_record_set_numbers(ctx, result->table[0], "longest_period", 1, &longest));
+    ISO_TRY(iso_record_set_numbers(ctx, result->table[0], "axis", 1, &axis));
+    return iso_study_title(ctx, result, "%s: periodic orbits of %d returns at most", ball, f->longest);
 }

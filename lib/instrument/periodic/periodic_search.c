@@ -24,8 +24,11 @@ typedef struct miss {
 } miss;
 
 typedef struct sample {
-    double u;
-    miss F[ISO_PERIODIC_MOST];
+    double u;                   /* of the line */
+    double z[2], z_by_u[2];     /* its first point on the section, and the derivative */
+    double end[2], end_by_u[2]; /* g^halves of it                                     */
+    bool there;                 /* it is the orbit's own mirror image                 */
+    miss F[ISO_PERIODIC_MOST];  /* F_1 to F_halves                                    */
 } sample;
 
 typedef struct interval {
@@ -53,69 +56,49 @@ typedef struct search {
     size_t brackets;
 } search;
 
-/* Of the line at u[i]: F_1 to F_halves are F[halves i], ... */
-typedef struct shots {
-    double (*z)[2], (*z_by_u)[2];     /* the first point on the section, and its derivative */
-    double (*end)[2], (*end_by_u)[2]; /* g^halves of it                                     */
-    bool *there;                      /* it is the orbit's own mirror image                 */
-    miss *F;
-} shots;
-
-static void free_shots(shots *m)
+/* The samples at[i], at their u. */
+static iso_status shoot(const search *s, size_t count, int halves, double tolerance, sample at[])
 {
-    free(m->z);
-    free(m->there);
-    free(m->F);
-}
-
-static iso_status make_shots(const search *s, size_t count, shots *m)
-{
-    const size_t each = count + 1;
-    m->z = malloc(4 * each * sizeof *m->z);
-    m->there = malloc(each * sizeof *m->there);
-    m->F = malloc(each * (size_t)s->periods * sizeof *m->F);
-    m->z_by_u = m->z + each, m->end = m->z + 2 * each, m->end_by_u = m->z + 3 * each;
-    if (m->z && m->there && m->F) return ISO_OK;
-    free_shots(m);
-    return iso_context_no_memory(s->w->ctx, "the search");
-}
-
-static iso_status shoot(const search *s, size_t count, const double u[], int halves, double tolerance, shots *m)
-{
-    const size_t each = (size_t)halves;
     if (count == 0) return ISO_OK;
-    iso_periodic_point *at = malloc(count * each * sizeof *at);
-    iso_status status = at ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
-    if (status == ISO_OK) status = iso_periodic_place(&s->w->map, s->line, count, u, m->z, m->z_by_u);
+    const size_t each = (size_t)halves;
+    double *u = calloc(count, sizeof *u), (*z)[2] = malloc(2 * count * sizeof *z);
+    iso_periodic_point *to = malloc(count * each * sizeof *to);
+    iso_status status = u && z && to ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
+    for (size_t i = 0; i < count && status == ISO_OK; i++) u[i] = at[i].u;
+    if (status == ISO_OK) status = iso_periodic_place(&s->w->map, s->line, count, u, z, z + count);
     if (status == ISO_OK)
-        status = iso_periodic_walk(&s->w->map, count, (const double(*)[2])m->z, halves, false, tolerance, at);
+        status = iso_periodic_walk(&s->w->map, count, (const double(*)[2])z, halves, false, tolerance, to);
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
-        iso_periodic_point before = {m->z[i][0], m->z[i][1], {{1, 0}, {0, 1}}};
-        for (size_t n = each * i; n < each * (i + 1); n++) {
-            m->F[n].off = iso_periodic_miss(s->line, &before, &at[n], m->z_by_u[i], &m->F[n].slope, &m->there[i]);
-            before = at[n];
+        const double *by_u = z[count + i];
+        iso_periodic_point before = {z[i][0], z[i][1], {{1, 0}, {0, 1}}};
+        for (size_t n = 0; n < each; n++) {
+            const iso_periodic_point *next = &to[each * i + n];
+            miss *F = &at[i].F[n];
+            F->off = iso_periodic_miss(s->line, &before, next, by_u, &F->slope, &at[i].there);
+            before = *next;
         }
-        m->end[i][0] = before.l, m->end[i][1] = before.x;
-        for (int j = 0; j < 2; j++)
-            m->end_by_u[i][j] = before.slope[j][0] * m->z_by_u[i][0] + before.slope[j][1] * m->z_by_u[i][1];
+        at[i].end[0] = before.l, at[i].end[1] = before.x;
+        for (int j = 0; j < 2; j++) {
+            at[i].z[j] = z[i][j], at[i].z_by_u[j] = by_u[j];
+            at[i].end_by_u[j] = before.slope[j][0] * by_u[0] + before.slope[j][1] * by_u[1];
+        }
     }
-    free(at);
+    free(u);
+    free(z);
+    free(to);
     return status;
 }
 
 /* Adds samples at u[0], u[1], ... */
 static iso_status take_samples(search *s, size_t count, const double u[])
 {
-    const size_t periods = (size_t)s->periods;
-    shots m;
-    ISO_TRY(make_shots(s, count, &m));
-    iso_status status = shoot(s, count, u, s->periods, 1e-10, &m);
-    for (size_t i = 0; i < count && status == ISO_OK; i++) {
-        sample new = {.u = u[i]};
-        memcpy(new.F, &m.F[periods * i], periods * sizeof *new.F);
-        status = iso_periodic_append(s->w->ctx, &s->sample, &s->samples, &new, sizeof new);
-    }
-    free_shots(&m);
+    sample *new = calloc(count, sizeof *new);
+    iso_status status = new ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
+    for (size_t i = 0; i < count && status == ISO_OK; i++) new[i].u = u[i];
+    if (status == ISO_OK) status = shoot(s, count, s->periods, 1e-10, new);
+    for (size_t i = 0; i < count && status == ISO_OK; i++)
+        status = iso_periodic_append(s->w->ctx, &s->sample, &s->samples, &new[i], sizeof *new);
+    free(new);
     return status;
 }
 
@@ -198,41 +181,30 @@ static iso_status sample_line(search *s)
 
 /* --- roots ------------------------------------------------------------------------------------------------------ */
 
-/* Newton's method, kept inside the bracket. Behind a step of 1e-9, and so near the line, a step is one of rounding
- * errors. */
-static void next_guess(bracket *b, double off, double slope)
-{
-    if (!isfinite(off)) {
-        b->done = true;
-        return;
-    }
-    if ((off < 0) == (b->off_low < 0))
-        b->low = b->u;
-    else
-        b->high = b->u;
-    double next = b->u - off / slope;
-    const bool inside = next > b->low && next < b->high;
-    if (!inside) next = (b->low + b->high) / 2;
-    b->done = fabs(next - b->u) < (inside && fabs(off) < 1e-6 ? 1e-9 : 1e-12) || off == 0;
-    b->u = next;
-}
-
-/* One step of all brackets of F_n. *left: how many go on. */
-static iso_status step_roots(search *s, int n, double u[], size_t of[], shots *m, size_t *left)
+/* One step of Newton's method for all brackets of F_n, kept inside them. Behind a step of 1e-9, and so near the line, a
+ * step is one of rounding errors. *left: how many go on. */
+static iso_status step_roots(search *s, int n, sample at[], bracket *of[], size_t *left)
 {
     size_t count = 0;
     *left = 0;
-    for (size_t i = 0; i < s->brackets; i++)
-        if (s->bracket[i].n == n && !s->bracket[i].done) u[count] = s->bracket[i].u, of[count++] = i;
-    const iso_status status = shoot(s, count, u, n, 1e-13, m);
+    for (bracket *b = s->bracket; b < s->bracket + s->brackets; b++)
+        if (b->n == n && !b->done) at[count].u = b->u, of[count++] = b;
+    const iso_status status = shoot(s, count, n, 1e-13, at);
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
-        bracket *b = &s->bracket[of[i]];
-        const miss *F = &m->F[(size_t)n * (i + 1) - 1];
-        b->there = m->there[i];
-        next_guess(b, F->off, F->slope);
+        bracket *b = of[i];
+        const miss *F = &at[i].F[n - 1];
+        b->there = at[i].there;
+        b->done = !isfinite(F->off);
+        if (!b->done) {
+            *((F->off < 0) == (b->off_low < 0) ? &b->low : &b->high) = at[i].u;
+            b->u = at[i].u - F->off / F->slope;
+            const bool inside = b->u > b->low && b->u < b->high;
+            if (!inside) b->u = (b->low + b->high) / 2;
+            b->done = fabs(b->u - at[i].u) < (inside && fabs(F->off) < 1e-6 ? 1e-9 : 1e-12) || F->off == 0;
+        }
         for (int j = 0; j < 2; j++) {
-            b->z[j] = m->z[i][j] + (b->u - u[i]) * m->z_by_u[i][j];
-            b->end[j] = m->end[i][j] + (b->u - u[i]) * m->end_by_u[i][j];
+            b->z[j] = at[i].z[j] + (b->u - at[i].u) * at[i].z_by_u[j];
+            b->end[j] = at[i].end[j] + (b->u - at[i].u) * at[i].end_by_u[j];
         }
         *left += !b->done;
     }
@@ -241,19 +213,16 @@ static iso_status step_roots(search *s, int n, double u[], size_t of[], shots *m
 
 static iso_status find_roots(search *s)
 {
-    shots m;
-    ISO_TRY(make_shots(s, s->brackets, &m));
-    double *u = malloc((s->brackets + 1) * sizeof *u);
-    size_t *of = malloc((s->brackets + 1) * sizeof *of);
-    iso_status status = u && of ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
+    sample *at = malloc((s->brackets + 1) * sizeof *at);
+    bracket **of = malloc((s->brackets + 1) * sizeof *of);
+    iso_status status = at && of ? ISO_OK : iso_context_no_memory(s->w->ctx, "the search");
     for (int n = 1; n <= s->periods && status == ISO_OK; n++) {
         size_t left = 1;
         for (int steps = 0; steps < 40 && left > 0 && status == ISO_OK; steps++)
-            status = step_roots(s, n, u, of, &m, &left);
+            status = step_roots(s, n, at, of, &left);
     }
-    free(u);
+    free(at);
     free(of);
-    free_shots(&m);
     return status;
 }
 
@@ -261,14 +230,6 @@ static int by_place(const void *a, const void *b)
 {
     const bracket *one = a, *other = b;
     return (one->u > other->u) - (one->u < other->u);
-}
-
-/* Whether b seems to be the other point on the line of an orbit that has one before b. Copies of both count. */
-static bool comes_again(const search *s, const bracket *b)
-{
-    for (const bracket *a = s->bracket; a < b; a++)
-        if (a->n == b->n && a->there && iso_periodic_apart(a->end, b->z) < 1e-4) return true;
-    return false;
 }
 
 /* Of an orbit's points on the line the one with the least u counts. Those that seem to be others come last: by then
@@ -282,9 +243,13 @@ static iso_status add_roots(search *s)
     for (int turn = 0; turn < 2 * s->periods && status == ISO_OK; turn++) {
         const int n = turn / 2 + 1;
         size_t count = 0;
-        for (const bracket *b = s->bracket; b < s->bracket + s->brackets; b++)
-            if (b->n == n && b->there && comes_again(s, b) == turn % 2)
-                c[count++] = (iso_periodic_candidate){s->line, n, b->u, b->z[0], b->z[1]};
+        for (const bracket *b = s->bracket; b < s->bracket + s->brackets; b++) {
+            if (b->n != n || !b->there) continue;
+            bool again = false; /* copies of both points count */
+            for (const bracket *a = s->bracket; a < b && !again; a++)
+                again = a->n == n && a->there && iso_periodic_apart(a->end, b->z) < 1e-4;
+            if (again == turn % 2) c[count++] = (iso_periodic_candidate){s->line, n, b->u, b->z[0], b->z[1]};
+        }
         status = iso_periodic_add(s->w, c, count);
         if (o->progress) o->progress(o->data, (s->line + (turn + 1.0) / (2 * s->periods)) / LINES);
     }
@@ -329,41 +294,35 @@ static bool step(const iso_periodic_point *end, double z[2], bool *found)
 
 /* Newton's method from all points of the grid at once. Those that go on move to the front; those that have arrived are
  * tried. */
-static iso_status try_period(iso_periodic_work *w, const iso_section_spread *spread, int period, double (*z)[2],
-                             iso_periodic_point *at, iso_periodic_candidate *arrived)
-{
-    size_t count = (size_t)w->options.grid;
-    for (size_t i = 0; i < count; i++) iso_section_spread_point(spread, i, &z[i][0], &z[i][1]);
-    for (int steps = 0; steps < STEPS && count > 0; steps++) {
-        size_t left = 0, found = 0;
-        ISO_TRY(iso_periodic_walk(&w->map, count, (const double(*)[2])z, period, true, 1e-12, at));
-        for (size_t i = 0; i < count; i++) {
-            bool there = false;
-            double to[2] = {z[i][0], z[i][1]};
-            if (!step(&at[(size_t)period * (i + 1) - 1], to, &there)) continue;
-            if (there)
-                arrived[found++] = (iso_periodic_candidate){-1, period, NAN, to[0], to[1]};
-            else
-                z[left][0] = to[0], z[left++][1] = to[1];
-        }
-        count = left;
-        ISO_TRY(iso_periodic_add(w, arrived, found));
-    }
-    return ISO_OK;
-}
-
 iso_status iso_periodic_from_grid(iso_periodic_work *w)
 {
-    const size_t count = (size_t)w->options.grid;
+    const iso_periodic_options *o = &w->options;
+    const size_t all = (size_t)o->grid;
     iso_section_spread spread;
-    double(*z)[2] = malloc(count * sizeof *z);
-    iso_periodic_point *at = malloc(count * (size_t)w->options.period * sizeof *at);
-    iso_periodic_candidate *arrived = malloc(count * sizeof *arrived);
+    double(*z)[2] = malloc(all * sizeof *z);
+    iso_periodic_point *at = malloc(all * (size_t)o->period * sizeof *at);
+    iso_periodic_candidate *arrived = malloc(all * sizeof *arrived);
     iso_status status = z && at && arrived ? ISO_OK : iso_context_no_memory(w->ctx, "the grid");
     iso_section_spread_prepare(&spread, iso_periodic_motion(&w->map), w->map.axis, 1);
-    for (int n = 1; n <= w->options.period && status == ISO_OK; n++) {
-        status = try_period(w, &spread, n, z, at, arrived);
-        if (w->options.progress) w->options.progress(w->options.data, (double)n / w->options.period);
+    for (int n = 1; n <= o->period && status == ISO_OK; n++) {
+        size_t count = all;
+        for (size_t i = 0; i < count; i++) iso_section_spread_point(&spread, i, &z[i][0], &z[i][1]);
+        for (int steps = 0; steps < STEPS && count > 0 && status == ISO_OK; steps++) {
+            size_t left = 0, found = 0;
+            status = iso_periodic_walk(&w->map, count, (const double(*)[2])z, n, true, 1e-12, at);
+            for (size_t i = 0; i < count && status == ISO_OK; i++) {
+                bool there = false;
+                double to[2] = {z[i][0], z[i][1]};
+                if (!step(&at[(size_t)n * (i + 1) - 1], to, &there)) continue;
+                if (there)
+                    arrived[found++] = (iso_periodic_candidate){-1, n, NAN, to[0], to[1]};
+                else
+                    z[left][0] = to[0], z[left++][1] = to[1];
+            }
+            count = left;
+            if (status == ISO_OK) status = iso_periodic_add(w, arrived, found);
+        }
+        if (o->progress) o->progress(o->data, (double)n / o->period);
     }
     free(z);
     free(at);

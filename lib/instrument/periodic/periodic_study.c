@@ -61,11 +61,10 @@ static int named(const char *text, const char *(*name)(int))
 
 /* --- the list --------------------------------------------------------------------------------------------------- */
 
-static iso_status list(iso_context *ctx, const iso_scene *scene, iso_periodic *f, iso_study_result *result)
+static iso_status list(iso_context *ctx, const iso_scene *scene, const iso_periodic *f, iso_study_result *result)
 {
     iso_field fields[ISO_MOST_FIELDS];
     iso_record **table = &result->table[0];
-    iso_study_keep(result, f, iso_periodic_fields, iso_periodic_free);
     iso_fields_copy(iso_periodic_fields, "orbits", fields);
     iso_status status = iso_study_table(ctx, "periodic", scene, fields, f, iso_periodic_orbit_fields, table);
     for (size_t i = 0; status == ISO_OK && i < f->count; i++)
@@ -92,9 +91,8 @@ static iso_status read_follow(iso_context *ctx, const iso_periodic_request *r, c
     const char *equals = strchr(r->follow, '=');
     const int vary = named(r->follow, iso_vary_name);
     if (!equals || vary < 0 || !read_range(equals + 1, range))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                "--follow '%s': expected NAME=A:B, NAME one of k, J1, J2, J3, ratio, level",
-                                r->follow);
+        return ISO_FAIL_ARGUMENT(ctx, "", "--follow '%s': expected NAME=A:B, NAME one of k, J1, J2, J3, ratio, level",
+                                 r->follow);
     *o = iso_continuation_defaults();
     o->vary = (iso_vary)vary;
     o->from = range[0], o->to = range[1];
@@ -128,28 +126,10 @@ static iso_status choose(iso_context *ctx, const iso_scene *scene, const iso_per
         p->k, p->J[0], p->J[1], p->J[2], found->level, r->how.period);
 }
 
-static iso_status fill_branches(iso_context *ctx, const iso_scene *scene, const iso_continuations *f,
-                                iso_record **table)
-{
-    iso_field columns[ISO_MOST_FIELDS], fields[ISO_MOST_FIELDS];
-    iso_fields_rename(iso_branch_row_fields, "k", iso_vary_name((int)f->vary), columns);
-    iso_fields_copy(iso_continuation_fields, "branches", fields);
-    iso_status status = iso_study_table(ctx, "periodic follow", scene, fields, f, columns, table);
-    for (size_t i = 0; i < f->count; i++) {
-        const iso_branch *b = &f->branch[i];
-        iso_branch_row row = {.number = i + 1, .line = b->line, .period = b->period};
-        for (size_t j = 0; status == ISO_OK && j < b->points + b->events; j++) {
-            row.event = j < b->points ? NULL : &b->event[j - b->points];
-            row.at = row.event ? row.event->at : b->point[j];
-            status = iso_columns_append(ctx, columns, &row, *table);
-        }
-    }
-    return status;
-}
-
 static iso_status follow(iso_context *ctx, const iso_scene *scene, const iso_periodic_request *r,
                          iso_continuation_options *how, const iso_periodic *found, iso_study_result *result)
 {
+    iso_field columns[ISO_MOST_FIELDS], fields[ISO_MOST_FIELDS];
     iso_continuations *f = NULL;
     iso_periodic_orbit *orbits = NULL;
     size_t count = 0, failed = 0;
@@ -160,12 +140,21 @@ static iso_status follow(iso_context *ctx, const iso_scene *scene, const iso_per
     free(orbits);
     if (!f) return status;
     iso_study_keep(result, f, iso_continuation_fields, iso_continuation_free);
-    for (size_t i = 0; i < f->count; i++)
-        for (size_t j = 0; j < f->branch[i].events; j++) failed += f->branch[i].event[j].kind == ISO_BRANCH_FAILURE;
+    iso_fields_rename(iso_branch_row_fields, "k", iso_vary_name((int)f->vary), columns);
+    iso_fields_copy(iso_continuation_fields, "branches", fields);
+    iso_status made = iso_study_table(ctx, "periodic follow", scene, fields, f, columns, &result->table[0]);
+    for (const iso_branch *b = f->branch; b < f->branch + f->count; b++) {
+        iso_branch_row row = {.number = (size_t)(b - f->branch) + 1, .line = b->line, .period = b->period};
+        for (size_t j = 0; j < b->points + b->events; j++) {
+            row.event = j < b->points ? NULL : &b->event[j - b->points];
+            row.at = row.event ? row.event->at : b->point[j];
+            failed += row.event && row.event->kind == ISO_BRANCH_FAILURE;
+            if (made == ISO_OK) made = iso_columns_append(ctx, columns, &row, result->table[0]);
+        }
+    }
     result->failed = failed > 0;
     if (failed > 0)
         iso_study_note(result, "%zu branches could not be followed to their ends: see their failures", failed);
-    const iso_status made = fill_branches(ctx, scene, f, &result->table[0]);
     return status == ISO_OK ? made : status;
 }
 
@@ -182,11 +171,13 @@ static iso_status search(iso_context *ctx, const iso_scene *scene, const iso_per
     const iso_status status = iso_periodic_run(ctx, scene, &options, &found);
     if (!found) return status;
     iso_status after = ISO_OK;
-    if (!r->follow)
+    if (!r->follow) {
+        iso_study_keep(result, found, iso_periodic_fields, iso_periodic_free);
         after = list(ctx, scene, found, result);
-    else if (status == ISO_OK)
-        after = follow(ctx, scene, r, &how, found, result);
-    if (r->follow) iso_periodic_free(found);
+    } else {
+        if (status == ISO_OK) after = follow(ctx, scene, r, &how, found, result);
+        iso_periodic_free(found);
+    }
     return status == ISO_OK ? after : status;
 }
 
@@ -199,22 +190,20 @@ static iso_status read_chart(iso_context *ctx, const iso_scene *scene, const iso
     *o = iso_stability_defaults();
     o->moment = named(r->chart, iso_chart_name);
     if (o->moment < 0 || (o->moment == ISO_CHART_LEVEL && !equals))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                "--chart '%s': expected J1, J2 or J3, or J2=A:B, or level=A:B", r->chart);
+        return ISO_FAIL_ARGUMENT(ctx, "", "--chart '%s': expected J1, J2 or J3, or J2=A:B, or level=A:B", r->chart);
     memcpy(o->J, scene->params.J, sizeof o->J);
     if (!r->level)
         ISO_TRY(iso_level_of_scene(ctx, scene, "the chart is drawn", &o->level));
     else if (o->moment == ISO_CHART_LEVEL)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--level does not go with --chart level=A:B");
+        return ISO_FAIL_ARGUMENT(ctx, "", "--level does not go with --chart level=A:B");
     else if (!iso_rational_read_double(r->level, strlen(r->level), &o->level))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--level '%s': expected a number", r->level);
+        return ISO_FAIL_ARGUMENT(ctx, "", "--level '%s': expected a number", r->level);
     const double one = o->J[(o->moment + 1) % 3], other = o->J[(o->moment + 2) % 3];
     double k[2] = {o->from[0], o->to[0]}, moment[2] = {fmin(one, other), one + other};
     if (equals && !read_range(equals + 1, moment))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--chart '%s': expected %s=A:B, A < B", r->chart,
-                                iso_chart_name(o->moment));
-    if (r->k && !read_range(r->k, k))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--k '%s': expected A:B, A < B", r->k);
+        return ISO_FAIL_ARGUMENT(ctx, "", "--chart '%s': expected %s=A:B, A < B", r->chart,
+                                 iso_chart_name(o->moment));
+    if (r->k && !read_range(r->k, k)) return ISO_FAIL_ARGUMENT(ctx, "", "--k '%s': expected A:B, A < B", r->k);
     o->from[0] = k[0], o->to[0] = k[1];
     o->from[1] = moment[0], o->to[1] = moment[1];
     o->steps = r->steps;
@@ -230,38 +219,34 @@ static void free_chart(void *found)
     free(f);
 }
 
-static iso_status fill_chart(iso_context *ctx, const iso_scene *scene, const iso_chart_found *f, iso_record **table)
-{
-    iso_field columns[ISO_MOST_FIELDS];
-    iso_fields_rename(iso_chart_row_fields, "J2", iso_chart_name(f->how.moment), columns);
-    iso_status status = iso_study_table(ctx, "periodic chart", scene, iso_chart_fields, f, columns, table);
-    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(f->grid); i++) {
-        const double *at = iso_record_const_row(f->grid, i);
-        status = iso_columns_append(ctx, columns, &(iso_chart_row){"grid", at[0], at[1], at[2], at[3]}, *table);
-    }
-    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(f->borders); i++) {
-        const double *at = iso_record_const_row(f->borders, i), trace[] = {at[1], NAN};
-        const int greatest = at[0] > 0;
-        const iso_chart_row row = {"border", at[2], at[3], trace[greatest], trace[!greatest]};
-        status = iso_columns_append(ctx, columns, &row, *table);
-    }
-    return status;
-}
-
 static iso_status chart(iso_context *ctx, const iso_scene *scene, const iso_periodic_request *r,
                         iso_study_result *result)
 {
+    iso_field columns[ISO_MOST_FIELDS];
+    iso_record **table = &result->table[0];
     iso_chart_found *f = iso_study_keep(result, calloc(1, sizeof *f), iso_chart_fields, free_chart);
     if (!f) return iso_context_no_memory(ctx, "a chart");
     ISO_TRY(read_chart(ctx, scene, r, &f->how));
     f->level = f->how.moment == ISO_CHART_LEVEL ? (double)NAN : f->how.level;
     f->how.progress = result->sink.progress;
     f->how.data = result->sink.data;
-    const iso_status status = iso_stability_chart(ctx, &f->how, &f->grid, &f->borders);
+    iso_status status = iso_stability_chart(ctx, &f->how, &f->grid, &f->borders);
     if (status == ISO_BAD_ARGUMENT) /* the ranges are the option's, not the scene's */
         return iso_context_fail(ctx, status, "chart", "%s", iso_context_message(ctx));
     ISO_TRY(status);
-    return fill_chart(ctx, scene, f, &result->table[0]);
+    iso_fields_rename(iso_chart_row_fields, "J2", iso_chart_name(f->how.moment), columns);
+    status = iso_study_table(ctx, "periodic chart", scene, iso_chart_fields, f, columns, table);
+    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(f->grid); i++) {
+        const double *at = iso_record_const_row(f->grid, i);
+        status = iso_columns_append(ctx, columns, &(iso_chart_row){"grid", at[0], at[1], at[2], at[3]}, *table);
+    }
+    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(f->borders); i++) {
+        const double *at = iso_record_const_row(f->borders, i);
+        const bool least = at[0] == 0;
+        const iso_chart_row row = {"border", at[2], at[3], least ? at[1] : (double)NAN, least ? (double)NAN : at[1]};
+        status = iso_columns_append(ctx, columns, &row, *table);
+    }
+    return status;
 }
 
 /* --- the study -------------------------------------------------------------------------------------------------- */

@@ -53,22 +53,19 @@ static bool fill_lines(iso_pool_worker *w, void *data, size_t first, size_t coun
     return true;
 }
 
+/* Traces at the points of the grid. */
 static iso_status fill_grid(chart *c)
 {
     const int n = c->o.steps + 1;
-    iso_status status = ISO_OK;
-    for (int i = 0; i < n * n && status == ISO_OK; i++) {
+    for (int i = 0; i < n * n; i++) {
         const int at[2] = {i % n, i / n};
         double *row;
-        status = iso_record_append(c->ctx, c->grid, &row);
-        for (int d = 0; d < 2 && status == ISO_OK; d++) {
-            row[d] = c->o.from[d] + (c->o.to[d] - c->o.from[d]) * at[d] / (n - 1);
-            row[2 + d] = NAN;
-        }
+        ISO_TRY(iso_record_append(c->ctx, c->grid, &row));
+        for (int d = 0; d < 2; d++) row[d] = c->o.from[d] + (c->o.to[d] - c->o.from[d]) * at[d] / (n - 1);
+        row[2] = row[3] = NAN;
     }
     iso_pool pool = {.what = "orbit", .count = (size_t)n, .chunk = 1, .solve = fill_lines, .data = c};
-    return status == ISO_OK ? iso_pool_run(c->ctx, &pool, iso_pool_threads(c->o.threads, pool.count - 1, 1), NULL)
-                            : status;
+    return iso_pool_run(c->ctx, &pool, iso_pool_threads(c->o.threads, pool.count - 1, 1), NULL);
 }
 
 /* The zero of trace - level between a and b, by halving. A jump is none: the axis changes where moments are equal. */

@@ -27,12 +27,7 @@ const char *iso_chart_name(int moment);
 
 static inline iso_stability_options iso_stability_defaults(void)
 {
-    iso_stability_options o = {0};
-    o.moment = 1;
-    o.from[0] = -3;
-    o.to[0] = 3;
-    o.steps = 120;
-    return o;
+    return (iso_stability_options){.moment = 1, .from[0] = -3, .to[0] = 3, .steps = 120};
 }
 
 /* A row of the table of a chart. */

@@ -39,7 +39,8 @@ static void write_equations(prove_flow *f, int numbers)
 {
     iso_tape *t = &f->tape;
     int y[PROVE_STATE];
-    arb_ptr one = _arb_vec_init(5), two = one + 1, minus = one + 2, x = one + 3, rest = one + 4;
+    ISO_BALLS(one, two, minus);
+    ISO_BALLS(x, rest);
     arb_one(one), arb_set_si(two, 2), arb_set_si(minus, -1), arb_one(rest);
     iso_tape_init(t);
     for (int i = 0; i < numbers; i++) y[i] = iso_tape_state(t);
@@ -68,7 +69,6 @@ static void write_equations(prove_flow *f, int numbers)
             iso_tape_rate(t, y[i + 1], rate);
         }
     }
-    _arb_vec_clear(one, 5);
 }
 
 /* --- series ----------------------------------------------------------------------------------------------------- */

@@ -31,52 +31,24 @@
 #include "instrument/prove/prove_impl.h"
 #include "method/enclosure/arb_tape_impl.h"
 
-/* --- the certificate of a proof, a text that grows line by line (lib/doc/prove.md, arb_certificate.c) ------------- */
-
-typedef struct prove_certificate {
-    char *text;
-    size_t length, room;
-    bool lost; /* there was no memory for all of it */
-} prove_certificate;
+/* --- the certificate of a proof, a stream in memory (lib/doc/prove.md, arb_certificate.c) ------------------------- */
 
 /* A line of text, as printf makes it. c NULL: nothing is done, here and below. */
-void prove_certificate_text(prove_certificate *c, const char *format, ...)
+void prove_certificate_text(FILE *c, const char *format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 2, 3)))
 #endif
     ;
 
 /* A line: a word, then balls, exactly. */
-void prove_certificate_line(prove_certificate *c, const char *word, int count, arb_srcptr x);
-
-/* All lines of another one. */
-void prove_certificate_append(prove_certificate *c, const prove_certificate *more);
-
-/* Forgets what was written after the first `length` bytes. */
-void prove_certificate_cut(prove_certificate *c, size_t length);
+void prove_certificate_line(FILE *c, const char *word, int count, arb_srcptr x);
 
 /* --- the orbit --------------------------------------------------------------------------------------------------- */
 
-/* The numbers of a state; the last six are neighbours: two of the same k, one of another k. */
-enum {
-    PROVE_Q,
-    PROVE_R,
-    PROVE_P,
-    PROVE_F,
-    PROVE_D,
-    PROVE_G,
-    PROVE_W,
-    PROVE_Z,
-    PROVE_POINT,
-    PROVE_Y1 = PROVE_POINT,
-    PROVE_V1,
-    PROVE_Y2,
-    PROVE_V2,
-    PROVE_PAIR,
-    PROVE_Y3 = PROVE_PAIR,
-    PROVE_V3,
-    PROVE_STATE
-};
+/* The numbers of a state, its two neighbours of the same k, and its neighbour of another k. */
+enum { PROVE_Q, PROVE_R, PROVE_P, PROVE_F, PROVE_D, PROVE_G, PROVE_W, PROVE_Z, PROVE_POINT };
+enum { PROVE_Y1 = PROVE_POINT, PROVE_V1, PROVE_Y2, PROVE_V2, PROVE_PAIR };
+enum { PROVE_Y3 = PROVE_PAIR, PROVE_V3, PROVE_STATE };
 
 /* A ball, its moments in the order of the section: J[2] belongs to the axis c of the section, J[1] is the middle one.
  * k may be an interval. Then half a return is followed in parts, after each of which there is a new set. */
@@ -84,13 +56,13 @@ typedef struct prove_flow {
     arb_t k, inverse_k, J[3], trace;
     iso_context *ctx;
     slong bits;
-    int parts;         /* of half a return; the derivative is enclosed in each      */
-    int numbers;       /* of the states in the tape: PROVE_POINT, PROVE_PAIR, PROVE_STATE; 0: no tape yet */
-    iso_tape tape;     /* the equations                                                                   */
-    iso_series series; /* from the last state on                                                          */
-    prove_certificate *certificate; /* NULL: none                                                 */
-    long steps;                     /* taken so far                                               */
-    iso_proof_work *work;           /* shared by all flows of a proof                               */
+    int parts;            /* of half a return; the derivative is enclosed in each      */
+    int numbers;          /* of the states in the tape: PROVE_POINT, PROVE_PAIR, PROVE_STATE; 0: no tape yet */
+    iso_tape tape;        /* the equations                                                                   */
+    iso_series series;    /* from the last state on                                                          */
+    FILE *certificate;    /* NULL: none                                                 */
+    long steps;           /* taken so far                                               */
+    iso_proof_work *work; /* shared by all flows of a proof                               */
 } prove_flow;
 
 /* The ball is set behind prove_flow_init, before the first step. */

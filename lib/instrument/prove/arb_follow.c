@@ -24,14 +24,12 @@ typedef struct piece {
 
 static void invert(const arb_struct M[4], slong bits, arb_struct X[4])
 {
-    arb_t determinant;
-    arb_init(determinant);
+    ISO_BALLS(determinant);
     arb_mul(determinant, M + 1, M + 2, bits);
     arb_neg(determinant, determinant);
     arb_addmul(determinant, M, M + 3, bits);
     for (int i = 0; i < 4; i++) arb_div(X + i, i == 0 ? M + 3 : i == 3 ? M : M + i, determinant, bits);
     arb_neg(X + 1, X + 1), arb_neg(X + 2, X + 2);
-    arb_clear(determinant);
 }
 
 static bool has_drift(const prove_flow *f)
@@ -50,25 +48,22 @@ static void place(const prove_flow *f, const piece *p, const arb_struct v[2], ar
  * denominator. */
 static void carry_tangent(const arb_struct M[4], const arb_t sigma, slong bits, arb_t below, arb_t x)
 {
-    arb_t end, top, both[2];
-    arb_init(end), arb_init(top), arb_init(both[0]), arb_init(both[1]);
+    ISO_BALLS(end, top);
+    ISO_BALL_ROW(both, 2);
     for (int i = 0; i < 2; i++) {
-        if (i == 0)
-            arb_get_lbound_arf(arb_midref(end), sigma, bits);
-        else
-            arb_get_ubound_arf(arb_midref(end), sigma, bits);
+        (i == 0 ? arb_get_lbound_arf : arb_get_ubound_arf)(arb_midref(end), sigma, bits);
         arb_mul(below, M + 1, end, bits);
         arb_add(below, below, M, bits);
         arb_mul(top, M + 3, end, bits);
         arb_add(top, top, M + 2, bits);
-        arb_div(both[i], top, below, bits);
+        arb_div(both + i, top, below, bits);
     }
     arb_mul(below, M + 1, sigma, bits);
     arb_add(below, below, M, bits);
-    arb_union(x, both[0], both[1], bits);
-    arb_clear(end), arb_clear(top), arb_clear(both[0]), arb_clear(both[1]);
+    arb_union(x, both, both + 1, bits);
 }
 
+/* To the certificate. */
 static void write_piece(const prove_flow *f, const piece *p)
 {
     prove_certificate_line(f->certificate, "centre", 2, p->centre);
@@ -84,9 +79,8 @@ static void write_piece(const prove_flow *f, const piece *p)
 static void widen_all(const prove_flow *f, piece *p)
 {
     enum { PART = 10 };
-    for (int i = 0; i < 2; i++) prove_widen(f, PART, p->hull + i);
-    for (int i = 0; i < 2; i++) prove_widen(f, PART, p->left + i);
-    for (int i = 0; i < 2; i++) prove_widen(f, PART, p->right + i);
+    const arb_ptr sets[] = {p->hull, p->left, p->right};
+    for (int i = 0; i < 6; i++) prove_widen(f, PART, sets[i / 2] + i % 2);
     prove_widen(f, PART, p->sigma);
 }
 
@@ -96,7 +90,7 @@ static void widen_all(const prove_flow *f, piece *p)
 static bool begin_piece(const prove_flow *f, const prove_local *o, const prove_start *start, const arb_t width,
                         piece *p)
 {
-    arb_ptr length = _arb_vec_init(3), most = length + 1, part = length + 2;
+    ISO_BALLS(length, most, part);
     arb_mul(length, start->xi, width, f->bits);
     arb_get_ubound_arf(arb_midref(length), length, MAG_BITS);
     mag_zero(arb_radref(length));
@@ -121,7 +115,6 @@ static bool begin_piece(const prove_flow *f, const prove_local *o, const prove_s
     arb_neg(p->left, length), arb_set(p->right, length);
     arb_set(p->left + 1, p->hull + 1), arb_set(p->right + 1, p->hull + 1);
     widen_all(f, p);
-    _arb_vec_clear(length, 3);
     return inside;
 }
 
@@ -131,24 +124,22 @@ static bool begin_piece(const prove_flow *f, const prove_local *o, const prove_s
 static iso_status enclose(prove_flow *f, prove_flow *thin, prove_part part, const piece *p, prove_half *all,
                           prove_half *one)
 {
-    arb_ptr box = _arb_vec_init(2);
+    ISO_BALL_ROW(box, 2);
     place(f, p, p->hull, box);
     for (int i = 0; i < 2; i++) prove_widen(f, PROVE_EIGHTH, box + i);
     prove_certificate_text(f->certificate, "half set");
-    iso_status status = prove_half_return(f, part, box, box + 1, has_drift(f) ? PROVE_STATE : PROVE_PAIR, all);
+    ISO_TRY(prove_half_return(f, part, box, box + 1, has_drift(f) ? PROVE_STATE : PROVE_PAIR, all));
     prove_certificate_text(f->certificate, "half centre");
-    if (status == ISO_OK) status = prove_half_return(thin, part, p->centre, p->centre + 1, PROVE_POINT, one);
-    if (status == ISO_OK && !arb_contains(all->window, one->time))
-        status = ISO_FAIL_NUMERICAL(f->ctx, "the centre of a set was followed to another crossing");
-    _arb_vec_clear(box, 2);
-    return status;
+    ISO_TRY(prove_half_return(thin, part, p->centre, p->centre + 1, PROVE_POINT, one));
+    if (arb_contains(all->window, one->time)) return ISO_OK;
+    return ISO_FAIL_NUMERICAL(f->ctx, "the centre of a set was followed to another crossing");
 }
 
 /* Where both columns of A are nearly parallel, the second is made orthogonal to the first; the determinant stays.
  * Angles are those of (l, x/scale): near O the manifolds have the slopes +-scale, which may be small. */
 static void spread_frame(arb_struct A[4], const arb_t scale, slong bits)
 {
-    arb_ptr determinant = _arb_vec_init(3), size = determinant + 1, other = determinant + 2;
+    ISO_BALLS(determinant, size, other);
     for (int i = 2; i < 4; i++) arb_div(A + i, A + i, scale, bits);
     arb_mul(determinant, A, A + 3, bits);
     arb_submul(determinant, A + 1, A + 2, bits);
@@ -164,36 +155,29 @@ static void spread_frame(arb_struct A[4], const arb_t scale, slong bits)
     }
     for (int i = 2; i < 4; i++) arb_mul(A + i, A + i, scale, bits);
     for (int i = 0; i < 4; i++) arb_get_mid_arb(A + i, A + i);
-    _arb_vec_clear(determinant, 3);
 }
 
-/* The next centre, C and A; e = what P(centre) + dk (D C + E) is beyond them. */
-static void carry_frame(const prove_flow *f, const prove_half *all, const prove_half *one, piece *p, arb_struct T[4],
-                        arb_struct e[2])
-{
-    arb_ptr E = _arb_vec_init(2);
-    prove_multiply(all->D, p->A, f->bits, T);
-    for (int i = 0; i < 4; i++) arb_get_mid_arb(p->A + i, T + i);
-    spread_frame(p->A, p->scale, f->bits);
-    if (has_drift(f)) prove_apply(all->D, p->drift, all->D + 4, f->bits, E);
-    for (int i = 0; i < 2; i++) {
-        arb_get_mid_arb(p->centre + i, one->z + i);
-        arb_get_mid_arb(p->drift + i, E + i);
-        arb_sub(e + i, one->z + i, p->centre + i, f->bits);
-        arb_sub(E + i, E + i, p->drift + i, f->bits);
-        arb_addmul(e + i, E + i, p->dk, f->bits);
-    }
-    _arb_vec_clear(E, 2);
-}
-
-/* False: xi does not grow along the piece, or the centre is not in the set. */
+/* The next centre, C and A; e = what P(centre) + dk (D C + E) is beyond them. False: xi does not grow along the piece,
+ * or the centre is not in the set. */
 static bool carry(const prove_flow *f, const prove_half *all, const prove_half *one, piece *p)
 {
     const slong bits = f->bits;
-    arb_ptr B = _arb_vec_init(4), T = _arb_vec_init(4), e = _arb_vec_init(2);
-    arb_t below;
-    arb_init(below);
-    carry_frame(f, all, one, p, T, e);
+    ISO_BALLS(below);
+    ISO_BALL_ROW(B, 4);
+    ISO_BALL_ROW(T, 4);
+    ISO_BALL_ROW(E, 2);
+    ISO_BALL_ROW(e, 2);
+    prove_multiply(all->D, p->A, bits, T);
+    for (int i = 0; i < 4; i++) arb_get_mid_arb(p->A + i, T + i);
+    spread_frame(p->A, p->scale, bits);
+    if (has_drift(f)) prove_apply(all->D, p->drift, all->D + 4, bits, E);
+    for (int i = 0; i < 2; i++) {
+        arb_get_mid_arb(p->centre + i, one->z + i);
+        arb_get_mid_arb(p->drift + i, E + i);
+        arb_sub(e + i, one->z + i, p->centre + i, bits);
+        arb_sub(E + i, E + i, p->drift + i, bits);
+        arb_addmul(e + i, E + i, p->dk, bits);
+    }
     invert(p->A, bits, B);
     prove_apply(B, e, NULL, bits, e);
     prove_multiply(B, T, bits, B);
@@ -202,10 +186,7 @@ static bool carry(const prove_flow *f, const prove_half *all, const prove_half *
     prove_apply(B, p->right, e, bits, p->right);
     carry_tangent(B, p->sigma, bits, below, p->sigma);
     widen_all(f, p);
-    const bool grows = arb_is_positive(below) && arb_contains_zero(p->hull) && arb_contains_zero(p->hull + 1);
-    _arb_vec_clear(B, 4), _arb_vec_clear(T, 4), _arb_vec_clear(e, 2);
-    arb_clear(below);
-    return grows;
+    return arb_is_positive(below) && arb_contains_zero(p->hull) && arb_contains_zero(p->hull + 1);
 }
 
 /* --- the end ---------------------------------------------------------------------------------------------------- */
@@ -213,14 +194,14 @@ static bool carry(const prove_flow *f, const prove_half *all, const prove_half *
 /* log2 of the part of the radius by the distance of an end from the line. */
 static double noise_of(const arb_t end, const arb_t line, slong bits)
 {
-    arb_t apart;
+    ISO_BALLS(apart);
     mag_t size;
-    arb_init(apart), mag_init(size);
+    mag_init(size);
     arb_sub(apart, line, end, bits);
     arf_get_mag(size, arb_midref(apart));
     mag_div(size, arb_radref(apart), size);
     const double noise = mag_get_d_log2_approx(size);
-    arb_clear(apart), mag_clear(size);
+    mag_clear(size);
     return noise;
 }
 
@@ -230,25 +211,19 @@ static bool cross(const prove_flow *f, const piece *p, prove_crossing *crossing)
 {
     enum { LEAST = 2, MOST = 60 }; /* of longer */
     const slong bits = f->bits;
-    arb_ptr end = _arb_vec_init(2);
-    arb_ptr line = _arb_vec_init(2), rate = line + 1;
+    ISO_BALLS(line, rate);
+    ISO_BALL_ROW(left, 2);
+    ISO_BALL_ROW(right, 2);
+    ISO_BALL_ROW(all, 2);
     arb_const_pi(line, bits);
     arb_mul_2exp_si(line, line, -1);
-    place(f, p, p->left, end);
-    bool reached = arb_lt(end, line);
-    double noise = noise_of(end, line, bits);
-    place(f, p, p->right, end);
-    reached = reached && arb_gt(end, line);
-    noise = fmax(noise, noise_of(end, line, bits));
+    place(f, p, p->left, left), place(f, p, p->right, right), place(f, p, p->hull, all);
+    const double noise = fmax(noise_of(left, line, bits), noise_of(right, line, bits));
     crossing->longer = (slong)fmin(fmax(LEAST, ceil(noise) + 1), MOST);
-    place(f, p, p->hull, end);
-    arb_set(crossing->x, end + 1);
+    arb_set(crossing->x, all + 1);
     carry_tangent(p->A, p->sigma, bits, rate, crossing->m);
-    reached = reached && arb_is_positive(rate);
     prove_widen(f, PROVE_EIGHTH, crossing->m), prove_widen(f, PROVE_EIGHTH, crossing->x);
-    _arb_vec_clear(end, 2);
-    _arb_vec_clear(line, 2);
-    return reached;
+    return arb_lt(left, line) && arb_gt(right, line) && arb_is_positive(rate);
 }
 
 iso_status prove_follow(prove_flow *f, prove_flow *one, const prove_local *o, const prove_start *start,
@@ -256,19 +231,19 @@ iso_status prove_follow(prove_flow *f, prove_flow *one, const prove_local *o, co
 {
     piece p;
     prove_half all, centre;
-    iso_balls_init(&p, sizeof p), iso_balls_init(&all, sizeof all), iso_balls_init(&centre, sizeof centre);
+    ISO_BALLS_OF(p);
+    ISO_BALLS_OF(all);
+    ISO_BALLS_OF(centre);
     if (has_drift(f)) arb_sub(p.dk, f->k, one->k, f->bits);
     arb_set(p.scale, o->s);
     crossing->longer = 0;
     *reached = begin_piece(f, o, start, width, &p);
-    iso_status status = ISO_OK;
     write_piece(f, &p);
-    for (long i = 0; i < start->halves * f->parts && *reached && status == ISO_OK; i++) {
-        status = enclose(f, one, (prove_part){(int)(i % f->parts), f->parts}, &p, &all, &centre);
-        if (status == ISO_OK) *reached = carry(f, &all, &centre, &p);
+    for (long i = 0; i < start->halves * f->parts && *reached; i++) {
+        ISO_TRY(enclose(f, one, (prove_part){(int)(i % f->parts), f->parts}, &p, &all, &centre));
+        *reached = carry(f, &all, &centre, &p);
         write_piece(f, &p);
     }
-    if (status == ISO_OK && *reached) *reached = cross(f, &p, crossing);
-    iso_balls_clear(&p, sizeof p), iso_balls_clear(&all, sizeof all), iso_balls_clear(&centre, sizeof centre);
-    return status;
+    *reached = *reached && cross(f, &p, crossing);
+    return ISO_OK;
 }

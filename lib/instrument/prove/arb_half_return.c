@@ -25,12 +25,11 @@ typedef struct angle {
     arb_t c, s;
 } angle;
 
-static void angle_init(const prove_flow *f, int number, int parts, angle *a)
+static void angle_set(const prove_flow *f, int number, int parts, angle *a)
 {
     fmpq_t turn;
     fmpq_init(turn);
     fmpq_set_si(turn, number, (ulong)parts);
-    arb_init(a->c), arb_init(a->s);
     arb_sin_cos_pi_fmpq(a->s, a->c, turn, f->bits);
     fmpq_clear(turn);
 }
@@ -38,19 +37,17 @@ static void angle_init(const prove_flow *f, int number, int parts, angle *a)
 /* x = a c + b s */
 static void combine(const arb_t a, const arb_t c, const arb_t b, const arb_t s, slong bits, arb_t x)
 {
-    arb_t first;
-    arb_init(first);
+    ISO_BALLS(first);
     arb_mul(first, a, c, bits);
     arb_mul(x, b, s, bits);
     arb_add(x, x, first, bits);
-    arb_clear(first);
 }
 
 /* gamma and u turned about b by the angle: q, r, p, f, d, g, w. */
 static void turn(const angle *by, slong bits, arb_ptr y)
 {
-    arb_ptr old = _arb_vec_init(PROVE_POINT);
-    arb_ptr minus_s = _arb_vec_init(2), part = minus_s + 1;
+    ISO_BALLS(minus_s, part);
+    ISO_BALL_ROW(old, PROVE_POINT);
     _arb_vec_set(old, y, PROVE_POINT);
     arb_neg(minus_s, by->s);
     combine(old + PROVE_P, by->c, old + PROVE_D, by->s, bits, y + PROVE_P);
@@ -65,16 +62,13 @@ static void turn(const angle *by, slong bits, arb_ptr y)
     combine(y + PROVE_R, by->c, y + PROVE_F, by->s, bits, part); /* (J u, gamma_0), (J u, u_0) */
     combine(y + PROVE_F, by->c, y + PROVE_R, minus_s, bits, y + PROVE_F);
     arb_set(y + PROVE_R, part);
-    _arb_vec_clear(old, PROVE_POINT);
-    _arb_vec_clear(minus_s, 2);
 }
 
 /* The neighbours dl = 1, dx = 1 and dk = 1. */
 static void begin_neighbours(const prove_flow *f, const angle *psi, const arb_t X, const arb_t x, arb_ptr y)
 {
     const slong bits = f->bits;
-    arb_t kappa;
-    arb_init(kappa);
+    ISO_BALLS(kappa);
     arb_div(kappa, y + PROVE_P, y + PROVE_Q, bits);
     arb_mul(kappa, kappa, f->inverse_k, bits); /* -kappa */
     arb_mul(y + PROVE_Y1, X, psi->c, bits);
@@ -83,13 +77,12 @@ static void begin_neighbours(const prove_flow *f, const angle *psi, const arb_t 
     arb_div(y + PROVE_Y2, psi->s, X, bits);
     arb_div(y + PROVE_V2, psi->c, X, bits);
     arb_zero(y + PROVE_Y3), arb_zero(y + PROVE_V3);
-    arb_clear(kappa);
 }
 
 static void begin_state(const prove_flow *f, const angle *psi, const arb_t l, const arb_t x, arb_ptr y)
 {
     const slong bits = f->bits;
-    arb_ptr A = _arb_vec_init(4), T = A + 1, half = A + 2, X = A + 3;
+    ISO_BALLS(A, T, half, X);
     arb_mul_2exp_si(T, l, 1);
     arb_sin_cos(A, y + PROVE_Q, T, bits);
     arb_sub(half, f->J[0], f->J[1], bits);
@@ -118,61 +111,49 @@ static void begin_state(const prove_flow *f, const angle *psi, const arb_t l, co
     arb_mul(y + PROVE_D, y + PROVE_D, T, bits);
     if (!arb_is_zero(psi->s)) turn(psi, bits, y);
     begin_neighbours(f, psi, X, x, y);
-    _arb_vec_clear(A, 4);
 }
 
-/* l in (-pi/4, 3 pi/4) from sin 2l and -cos 2l; near 0 to all digits. */
-static void find_angle(const arb_t s, const arb_t minus_c, slong bits, arb_t l)
-{
-    arb_t part;
-    arb_init(part);
-    if (arb_is_negative(minus_c)) {
-        arb_div(part, s, minus_c, bits);
-        arb_neg(part, part);
-        arb_atan(l, part, bits);
-    } else {
-        arb_const_pi(part, bits);
-        arb_mul_2exp_si(part, part, -1);
-        arb_atan2(l, minus_c, s, bits); /* 2l - pi/2 */
-        arb_add(l, l, part, bits);
-    }
-    arb_mul_2exp_si(l, l, -1);
-    arb_clear(part);
-}
-
-/* (l, x), which has turned back to psi = 0 the state p_0 = -X A, q_0:
- * sin 2l = -2 p_0/(X (J_a - J_b)), cos 2l = (2 q_0 - J_a - J_b)/(J_a - J_b); l in (-pi/4, 3 pi/4). */
+/* The place (l, x) of a state: it is turned back to psi = 0, where p_0 = -X A and
+ * sin 2l = -2 p_0/(X (J_a - J_b)), cos 2l = (2 q_0 - J_a - J_b)/(J_a - J_b); l in (-pi/4, 3 pi/4), near 0 to all
+ * digits. */
 static void end_place(const prove_flow *f, const angle *psi, arb_srcptr y, arb_t X, arb_struct z[2])
 {
     const slong bits = f->bits;
-    arb_ptr base = _arb_vec_init(PROVE_POINT);
     angle back;
-    arb_ptr s = _arb_vec_init(3), c = s + 1, apart = s + 2;
-    angle_init(f, 0, 1, &back);
+    ISO_BALLS_OF(back);
+    ISO_BALLS(s, minus_c, part);
+    ISO_BALL_ROW(base, PROVE_POINT);
     _arb_vec_set(base, y, PROVE_POINT);
     arb_set(back.c, psi->c), arb_neg(back.s, psi->s);
     turn(&back, bits, base);
     arb_set(X, base + PROVE_W);
-    arb_sub(apart, f->J[1], f->J[0], bits);
+    arb_sub(part, f->J[1], f->J[0], bits);
     arb_div(s, base + PROVE_P, X, bits);
     arb_mul_2exp_si(s, s, 1);
-    arb_div(s, s, apart, bits);
-    arb_add(c, f->J[0], f->J[1], bits);
+    arb_div(s, s, part, bits);
+    arb_add(minus_c, f->J[0], f->J[1], bits);
     arb_mul_2exp_si(base + PROVE_Q, base + PROVE_Q, 1);
-    arb_sub(c, base + PROVE_Q, c, bits);
-    arb_div(c, c, apart, bits); /* -cos 2l */
-    find_angle(s, c, bits, z);
+    arb_sub(minus_c, base + PROVE_Q, minus_c, bits);
+    arb_div(minus_c, minus_c, part, bits);
+    if (arb_is_negative(minus_c)) {
+        arb_div(part, s, minus_c, bits);
+        arb_neg(part, part);
+        arb_atan(z, part, bits);
+    } else {
+        arb_const_pi(part, bits);
+        arb_mul_2exp_si(part, part, -1);
+        arb_atan2(z, minus_c, s, bits); /* 2l - pi/2 */
+        arb_add(z, z, part, bits);
+    }
+    arb_mul_2exp_si(z, z, -1);
     arb_neg(z + 1, y + PROVE_Z);
-    iso_balls_clear(&back, sizeof back);
-    _arb_vec_clear(base, PROVE_POINT);
-    _arb_vec_clear(s, 3);
 }
 
 static void end_derivative(const prove_flow *f, const angle *psi, arb_srcptr y, const arb_t X, int numbers,
                            prove_half *half)
 {
     const slong bits = f->bits;
-    arb_ptr kappa_x = _arb_vec_init(3), below = kappa_x + 1, v = kappa_x + 2;
+    ISO_BALLS(kappa_x, below, v);
     arb_div(kappa_x, y + PROVE_P, y + PROVE_Q, bits);
     arb_mul(kappa_x, kappa_x, f->inverse_k, bits);
     arb_mul(kappa_x, kappa_x, y + PROVE_Z, bits); /* kappa x */
@@ -190,7 +171,6 @@ static void end_derivative(const prove_flow *f, const angle *psi, arb_srcptr y, 
         combine(neighbour, psi->s, v, psi->c, bits, dx);
         arb_mul(dx, dx, X, bits);
     }
-    _arb_vec_clear(kappa_x, 3);
 }
 
 /* --- the crossing ----------------------------------------------------------------------------------------------- */
@@ -198,12 +178,10 @@ static void end_derivative(const prove_flow *f, const angle *psi, arb_srcptr y, 
 /* X sin(psi_end - psi) of a state. */
 static void find_ahead(const angle *end, arb_srcptr y, slong bits, arb_t x)
 {
-    arb_t part;
-    arb_init(part);
+    ISO_BALLS(part);
     arb_mul(part, y + PROVE_G, end->c, bits);
     arb_mul(x, y + PROVE_W, end->s, bits);
     arb_sub(x, x, part, bits);
-    arb_clear(part);
 }
 
 /* It and its derivative at s; y: room for a state. w' = kappa z - g. */
@@ -226,9 +204,8 @@ static void find_both(prove_flow *f, const angle *end, const arb_t s, arb_ptr y,
  * where g' < 0 on U, each orbit has one zero of g in U, and it lies there. g is what find_ahead finds. */
 static bool find_zero(prove_flow *f, const angle *end, const arb_t h, arb_t zero, arb_t window)
 {
-    arb_ptr s = _arb_vec_init(4), g = s + 1, w = s + 2, other = s + 3, y = _arb_vec_init(PROVE_POINT);
-    mag_t size;
-    mag_init(size);
+    ISO_BALLS(s, g, w, other);
+    ISO_BALL_ROW(y, PROVE_POINT);
     arb_mul_2exp_si(s, h, -1);
     for (int i = 0; i < 60; i++) {
         find_both(f, end, s, y, g, w);
@@ -237,44 +214,25 @@ static bool find_zero(prove_flow *f, const angle *end, const arb_t h, arb_t zero
         arb_get_mid_arb(s, s);
         if (!arb_is_finite(g) || arb_contains_zero(g)) break;
     }
-    bool found = arb_is_finite(s) && arb_is_positive(s) && arb_lt(s, h);
-    if (found) {
-        find_both(f, end, s, y, g, w);
-        arb_div(zero, g, w, f->bits);
-        arb_get_mag(size, zero);
-        mag_mul_2exp_si(size, size, 1);
-        arb_set(window, s);
-        arb_add_error_mag(window, size);
-        find_both(f, end, window, y, other, w);
-        arb_div(zero, g, w, f->bits);
-        arb_sub(zero, s, zero, f->bits);
-        found = arb_is_positive(window) && arb_lt(window, h) && arb_is_negative(w) && arb_contains(window, zero);
-    }
-    _arb_vec_clear(y, PROVE_POINT), _arb_vec_clear(s, 4);
+    if (!(arb_is_finite(s) && arb_is_positive(s) && arb_lt(s, h))) return false;
+    find_both(f, end, s, y, g, w);
+    arb_div(zero, g, w, f->bits);
+    mag_t size;
+    mag_init(size);
+    arb_get_mag(size, zero);
+    mag_mul_2exp_si(size, size, 1);
+    arb_set(window, s);
+    arb_add_error_mag(window, size);
     mag_clear(size);
-    return found;
+    find_both(f, end, window, y, other, w);
+    arb_div(zero, g, w, f->bits);
+    arb_sub(zero, s, zero, f->bits);
+    return arb_is_positive(window) && arb_lt(window, h) && arb_is_negative(w) && arb_contains(window, zero);
 }
 
 /* --- steps ------------------------------------------------------------------------------------------------------ */
 
 enum { HALVINGS = 12, SPARE_BITS = 4 };
-
-/* h is made exact, with few bits, and small enough for a bound. */
-static bool choose_step(prove_flow *f, arb_t h)
-{
-    arf_t length;
-    arf_init(length);
-    arf_set_d(length, prove_flow_guess_step(f));
-    arf_set_round(length, length, 8, ARF_RND_DOWN);
-    bool good = false;
-    for (int i = 0; i < HALVINGS && !good; i++) {
-        arb_set_arf(h, length);
-        good = iso_series_bound(&f->series, h);
-        arf_mul_2exp_si(length, length, -1);
-    }
-    arf_clear(length);
-    return good;
-}
 
 void prove_widen(const prove_flow *f, slong part, arb_t x)
 {
@@ -289,94 +247,80 @@ void prove_widen(const prove_flow *f, slong part, arb_t x)
     mag_clear(more), mag_clear(size);
 }
 
-/* The state at the end of a step h, which is made shorter where it ends in the zero; *crossed: beyond it. */
+/* A step h, exact, with few bits, as long as a bound allows, and shorter where it ends in the zero; *end: the state
+ * there, *crossed: beyond the zero. */
 static bool go(prove_flow *f, const angle *to, int numbers, arb_t h, arb_ptr end, bool *crossed)
 {
-    arb_t ahead;
-    bool good = choose_step(f, h), open = true;
+    ISO_BALLS(ahead);
+    bool good = false;
     *crossed = false;
-    arb_init(ahead);
-    for (int i = 0; good && open; i++) {
+    arb_set_d(h, prove_flow_guess_step(f));
+    arf_set_round(arb_midref(h), arb_midref(h), 8, ARF_RND_DOWN);
+    for (int i = 0; i < HALVINGS && !good; i++) {
+        if (i > 0) arb_mul_2exp_si(h, h, -1);
+        good = iso_series_bound(&f->series, h);
+    }
+    for (int i = 0; good; i++) {
         iso_series_at(&f->series, h, 0, numbers, end);
         find_ahead(to, end, f->bits, ahead);
-        open = arb_contains_zero(ahead);
         *crossed = arb_is_negative(ahead);
-        if (!open) break;
+        if (!arb_contains_zero(ahead)) return true;
         arb_mul_2exp_si(h, h, -1);
         good = i + 1 < HALVINGS && iso_series_bound(&f->series, h);
     }
-    arb_clear(ahead);
-    return good;
+    return false;
 }
 
 /* A step. *crossed: the end lies in it, and y is the state there; else y is that at the end of the step. */
 static iso_status take_step(prove_flow *f, const angle *to, int numbers, arb_ptr y, prove_half *half, bool *crossed)
 {
-    arb_ptr h = _arb_vec_init(3), zero = h + 1, window = h + 2;
-    arb_ptr end = _arb_vec_init(PROVE_STATE);
+    ISO_BALLS(h, zero, window);
+    ISO_BALL_ROW(end, PROVE_STATE);
     prove_flow_expand(f, y, numbers);
-    bool good = go(f, to, numbers, h, end, crossed);
-    if (*crossed && good) good = find_zero(f, to, h, zero, window);
-    if (*crossed && good) iso_series_at(&f->series, zero, 0, numbers, end);
-    if (good && !*crossed) arb_set(zero, h);
+    f->steps++;
+    if (!go(f, to, numbers, h, end, crossed) || (*crossed && !find_zero(f, to, h, zero, window)))
+        return ISO_FAIL_NUMERICAL(f->ctx, "a step of the orbit could not be enclosed");
+    if (*crossed) iso_series_at(&f->series, zero, 0, numbers, end);
+    if (!*crossed) arb_set(zero, h);
     for (int i = 0; i < numbers; i++) {
         arb_set(y + i, end + i);
-        if (good) prove_widen(f, PROVE_EIGHTH, y + i);
+        prove_widen(f, PROVE_EIGHTH, y + i);
     }
-    if (good) {
-        prove_certificate_line(f->certificate, "step", 1, h);
-        if (*crossed) prove_certificate_line(f->certificate, "window", 1, window);
-        if (*crossed) prove_certificate_line(f->certificate, "zero", 1, zero);
-        prove_certificate_line(f->certificate, "state", numbers, y);
-    }
+    prove_certificate_line(f->certificate, "step", 1, h);
+    if (*crossed) prove_certificate_line(f->certificate, "window", 1, window);
+    if (*crossed) prove_certificate_line(f->certificate, "zero", 1, zero);
+    prove_certificate_line(f->certificate, "state", numbers, y);
     arb_add(half->window, half->time, *crossed ? window : zero, ARF_PREC_EXACT);
     arb_add(half->time, half->time, zero, ARF_PREC_EXACT);
-    f->steps++;
-    _arb_vec_clear(end, PROVE_STATE);
-    _arb_vec_clear(h, 3);
-    return good ? ISO_OK : ISO_FAIL_NUMERICAL(f->ctx, "a step of the orbit could not be enclosed");
-}
-
-/* False: not at the end angle, but at its antipode. */
-static bool finish(prove_flow *f, const angle *to, arb_srcptr y, int numbers, prove_half *half)
-{
-    arb_t X;
-    arb_init(X);
-    end_place(f, to, y, X, half->z);
-    end_derivative(f, to, y, X, numbers, half);
-    for (int i = 0; i < 2; i++) prove_widen(f, PROVE_EIGHTH, half->z + i);
-    for (int i = 0; i < numbers - PROVE_POINT; i++) prove_widen(f, PROVE_EIGHTH, half->D + i);
-    prove_certificate_line(f->certificate, "to", 2, half->z);
-    if (numbers > PROVE_POINT) prove_certificate_line(f->certificate, "derivative", numbers - PROVE_POINT, half->D);
-    const bool right = arb_is_positive(X);
-    arb_clear(X);
-    return right;
+    return ISO_OK;
 }
 
 iso_status prove_half_return(prove_flow *f, prove_part part, const arb_t l, const arb_t x, int numbers,
                              prove_half *half)
 {
-    arb_ptr y = _arb_vec_init(PROVE_STATE);
     angle from, to;
-    bool crossed = false;
-    iso_status status = ISO_OK;
+    ISO_BALLS_OF(from);
+    ISO_BALLS_OF(to);
+    ISO_BALLS(X);
+    ISO_BALL_ROW(y, PROVE_STATE);
     if (part.number == 0 && f->work->begun++ >= f->work->most) /* the first part counts for all of a half return */
-        status =
-            ISO_FAIL_NUMERICAL(f->ctx, "it takes more than the %ld half returns of --half-returns", f->work->most);
-    angle_init(f, part.number, part.parts, &from), angle_init(f, part.number + 1, part.parts, &to);
+        return ISO_FAIL_NUMERICAL(f->ctx, "it takes more than the %ld half returns of --half-returns", f->work->most);
+    angle_set(f, part.number, part.parts, &from), angle_set(f, part.number + 1, part.parts, &to);
     begin_state(f, &from, l, x, y);
     for (int i = 0; i < numbers; i++) prove_widen(f, PROVE_EIGHTH, y + i);
     prove_certificate_line(f->certificate, "l", 1, l);
     prove_certificate_line(f->certificate, "x", 1, x);
     prove_certificate_line(f->certificate, "state", numbers, y);
     arb_zero(half->time);
-    while (status == ISO_OK && !crossed) {
-        status = iso_context_goes_on(f->ctx) ? ISO_OK : iso_context_stopped(f->ctx);
-        if (status == ISO_OK) status = take_step(f, &to, numbers, y, half, &crossed);
+    for (bool crossed = false; !crossed;) {
+        if (!iso_context_goes_on(f->ctx)) return iso_context_stopped(f->ctx);
+        ISO_TRY(take_step(f, &to, numbers, y, half, &crossed));
     }
-    if (status == ISO_OK && !finish(f, &to, y, numbers, half))
-        status = ISO_FAIL_NUMERICAL(f->ctx, "a set crosses a section on both sides");
-    _arb_vec_clear(y, PROVE_STATE);
-    iso_balls_clear(&from, sizeof from), iso_balls_clear(&to, sizeof to);
-    return status;
+    end_place(f, &to, y, X, half->z);
+    end_derivative(f, &to, y, X, numbers, half);
+    for (int i = 0; i < 2; i++) prove_widen(f, PROVE_EIGHTH, half->z + i);
+    for (int i = 0; i < numbers - PROVE_POINT; i++) prove_widen(f, PROVE_EIGHTH, half->D + i);
+    prove_certificate_line(f->certificate, "to", 2, half->z);
+    if (numbers > PROVE_POINT) prove_certificate_line(f->certificate, "derivative", numbers - PROVE_POINT, half->D);
+    return arb_is_positive(X) ? ISO_OK : ISO_FAIL_NUMERICAL(f->ctx, "a set crosses a section on both sides");
 }

@@ -1,5 +1,4 @@
-/* arb_manifold_impl.h - the rotation O about the middle axis and its unstable manifold, from O to the line l = pi/2;
- * one proof of a ball in exact numbers. */
+/* arb_manifold_impl.h - the rotation O about the middle axis and its unstable manifold, from O to the line l = pi/2. */
 #ifndef ISO_STUDY_PROVE_ARB_MANIFOLD_IMPL_H
 #define ISO_STUDY_PROVE_ARB_MANIFOLD_IMPL_H
 
@@ -8,8 +7,8 @@
 /* Near O: (l, x) = (xi + eta, s (xi - eta)). For |xi| <= size the unstable manifold is eta = e(xi) with a slope of at
  * most `slope`. */
 typedef struct prove_local {
-    arb_t trace, lambda; /* of the half return's derivative at O: its trace, its eigenvalue > 1 */
-    arb_t s, size;       /* exact */
+    arb_t lambda;  /* of the half return's derivative at O: its eigenvalue > 1 */
+    arb_t s, size; /* exact */
     arb_t slope;
 } prove_local;
 
@@ -46,30 +45,5 @@ iso_status prove_search(const prove_flow *f, const prove_local *o, bool with_dri
  * crosses l = pi/2. */
 iso_status prove_follow(prove_flow *f, prove_flow *one, const prove_local *o, const prove_start *start,
                         const arb_t width, prove_crossing *crossing, bool *reached);
-
-/* --- one proof (arb_ball.c) ------------------------------------------------------------------------------------- */
-
-/* All k from k[0] to k[1], both of one sign. J: that of the axis which is no part of the name, the middle one, that of
- * the section's axis. */
-typedef struct prove_ball {
-    fmpq_t k[2], J[3];
-    int section, middle; /* axes, 0 to 2 */
-} prove_ball;
-
-typedef struct prove_found {
-    arb_t x, m, multiplier; /* of the section; of a whole return */
-    arb_t middle;           /* of an interval of k: the k of the centres, exact */
-    int parts;              /* of half a return */
-    long halves, steps;
-    slong bits;
-} prove_found;
-
-/* Encloses m to 10^-digits, or less well where an interval of k allows no more. certificate: NULL, or an empty one.
- * Errors: ISO_NUMERICAL: nothing could be enclosed; ISO_STOPPED. */
-iso_status prove_ball_at(iso_context *ctx, const prove_ball *ball, int digits, iso_proof_work *work,
-                         prove_certificate *certificate, prove_found *found);
-
-/* iso_proof_expect */
-iso_status prove_ball_expect(iso_context *ctx, const prove_ball *ball, iso_proof_work *work, double *decades);
 
 #endif

@@ -12,11 +12,10 @@ enum { POINTS = 8, LOW_BITS = 80, FAR = -14, TRIES = 60 };
 static iso_status advance(prove_flow *f, arb_struct z[2])
 {
     prove_half half;
-    iso_balls_init(&half, sizeof half);
-    const iso_status status = prove_half_return(f, (prove_part){0, 1}, z, z + 1, PROVE_POINT, &half);
+    ISO_BALLS_OF(half);
+    ISO_TRY(prove_half_return(f, (prove_part){0, 1}, z, z + 1, PROVE_POINT, &half));
     for (int i = 0; i < 2; i++) arb_get_mid_arb(z + i, half.z + i);
-    iso_balls_clear(&half, sizeof half);
-    return status;
+    return ISO_OK;
 }
 
 /* l - pi/2, of a curve that comes from l = 0: below 0 until the line, also where l was taken modulo pi. */
@@ -33,7 +32,7 @@ static iso_status land(const prove_flow *like, slong bits, const prove_local *o,
                        arb_t gap)
 {
     prove_flow f;
-    arb_ptr z = _arb_vec_init(2);
+    ISO_BALL_ROW(z, 2);
     iso_status status = ISO_OK;
     prove_flow_like(&f, like, bits);
     arb_set_round(z, xi, bits);
@@ -41,7 +40,6 @@ static iso_status land(const prove_flow *like, slong bits, const prove_local *o,
     for (long i = 0; i < halves && status == ISO_OK; i++) status = advance(&f, z);
     find_gap(&f, z, gap);
     arb_get_mid_arb(gap, gap);
-    _arb_vec_clear(z, 2);
     prove_flow_clear(&f);
     return status;
 }
@@ -51,52 +49,42 @@ static iso_status land(const prove_flow *like, slong bits, const prove_local *o,
 /* xi = 2^FAR lambda^(i/POINTS) */
 static void place(const prove_local *o, double i, arb_t xi)
 {
-    arb_t power;
-    arb_init(power);
+    ISO_BALLS(power);
     arb_set_d(power, i / POINTS);
     arb_pow(xi, o->lambda, power, LOW_BITS);
     arb_mul_2exp_si(xi, xi, FAR);
     arb_get_mid_arb(xi, xi);
-    arb_clear(power);
 }
 
 /* The manifold in pieces, from O on: after *halves half returns the line lies between the places *i - 1 and *i. */
 static iso_status find_piece(prove_flow *f, const prove_local *o, int *i, long *halves)
 {
-    arb_ptr z = _arb_vec_init(2 * POINTS);
-    arb_t gap;
-    arb_init(gap);
-    iso_status status = ISO_OK;
-    bool found = false;
+    ISO_BALLS(gap);
+    ISO_BALL_ROW(z, 2 * POINTS);
     for (int j = 0; j < POINTS; j++) {
         place(o, j, z + 2 * j);
         arb_mul(z + 2 * j + 1, z + 2 * j, o->s, f->bits);
     }
-    for (*halves = 1; status == ISO_OK && !found; *halves += !found)
-        for (*i = 0; status == ISO_OK && !found && *i < POINTS; *i += !found) {
-            status = advance(f, z + 2 * *i);
+    for (*halves = 1;; ++*halves)
+        for (*i = 0; *i < POINTS; ++*i) {
+            ISO_TRY(advance(f, z + 2 * *i));
             find_gap(f, z + 2 * *i, gap);
-            found = arf_sgn(arb_midref(gap)) > 0;
+            if (arf_sgn(arb_midref(gap)) > 0) return ISO_OK;
         }
-    _arb_vec_clear(z, 2 * POINTS);
-    arb_clear(gap);
-    return status;
 }
 
 /* Regula falsi (Illinois) for the place; *slope: of the gap by ln xi. */
 static iso_status refine_piece(const prove_flow *f, const prove_local *o, int i, long halves, arb_t xi, double *slope)
 {
     double at[2] = {i - 1, i}, value[2] = {0, 0}, weight[2] = {1, 1}, middle = i;
-    arb_t gap;
-    arb_init(gap);
+    ISO_BALLS(gap);
     arb_log(gap, o->lambda, f->bits);
     const double growth = arf_get_d(arb_midref(gap), ARF_RND_NEAR);
-    iso_status status = ISO_OK;
-    for (int n = 0; n < TRIES && status == ISO_OK && at[1] - at[0] > 1e-5; n++) {
+    for (int n = 0; n < TRIES && at[1] - at[0] > 1e-5; n++) {
         const double a = weight[0] * value[0], b = weight[1] * value[1];
         middle = n < 2 ? at[n] : at[0] + (at[1] - at[0]) * a / (a - b);
         place(o, middle, xi);
-        status = land(f, f->bits, o, xi, halves, gap);
+        ISO_TRY(land(f, f->bits, o, xi, halves, gap));
         const double found = arf_get_d(arb_midref(gap), ARF_RND_NEAR);
         const int side = n < 2 ? n : found > 0;
         at[side] = middle, value[side] = found, weight[side] = 1;
@@ -104,8 +92,7 @@ static iso_status refine_piece(const prove_flow *f, const prove_local *o, int i,
         if (fabs(found) < 1e-7) break;
     }
     *slope = (value[1] - value[0]) / (at[1] - at[0]) * POINTS / growth;
-    arb_clear(gap);
-    return status;
+    return ISO_OK;
 }
 
 /* --- to all digits ---------------------------------------------------------------------------------------------- */
@@ -116,12 +103,10 @@ static iso_status refine_piece(const prove_flow *f, const prove_local *o, int i,
 static iso_status refine(const prove_flow *f, const prove_local *o, double slope, prove_start *start)
 {
     enum { KNOWN = 44, SPARE = 36 };
-    arb_ptr gap = _arb_vec_init(4), last = gap + 1, change = gap + 2, steep = gap + 3;
+    ISO_BALLS(gap, last, change, steep);
     arb_set_d(steep, slope);
-    iso_status status = ISO_OK;
     double known = KNOWN;
-    bool done = false;
-    for (int i = 0; i < TRIES && status == ISO_OK && !done; i++) {
+    for (int i = 0; i < TRIES; i++) {
         const slong bits = (slong)fmin((double)f->bits, known + SPARE);
         const slong close = bits == f->bits ? 4 * bits : (slong)known;
         arb_one(gap);
@@ -129,7 +114,7 @@ static iso_status refine(const prove_flow *f, const prove_local *o, double slope
         if (arb_lt(gap, o->size)) arb_set(gap, o->size);
         for (; !arb_lt(start->xi, gap); start->halves++) arb_div(start->xi, start->xi, o->lambda, f->bits);
         arb_get_mid_arb(start->xi, start->xi);
-        status = land(f, bits, o, start->xi, start->halves, gap);
+        ISO_TRY(land(f, bits, o, start->xi, start->halves, gap));
         if (i > 0) arb_sub(last, last, gap, f->bits), arb_div(steep, last, change, f->bits);
         arb_set(last, gap);
         arb_div(change, gap, steep, f->bits);
@@ -138,11 +123,10 @@ static iso_status refine(const prove_flow *f, const prove_local *o, double slope
         arb_mul(start->xi, start->xi, gap, f->bits);
         arb_get_mid_arb(start->xi, start->xi);
         arb_get_mid_arb(change, change);
-        done = bits == f->bits && arf_cmpabs_2exp_si(arb_midref(change), -bits * 62 / 100) < 0;
+        if (bits == f->bits && arf_cmpabs_2exp_si(arb_midref(change), -bits * 62 / 100) < 0) break;
         known *= 1.6;
     }
-    _arb_vec_clear(gap, 4);
-    return status;
+    return ISO_OK;
 }
 
 /* What xi changes by with k, so that the line is met: with T the tangent and C what the orbit changes by with k, both
@@ -150,13 +134,14 @@ static iso_status refine(const prove_flow *f, const prove_local *o, double slope
 static iso_status find_drift(prove_flow *f, const prove_local *o, prove_start *start)
 {
     prove_half half;
-    arb_ptr z = _arb_vec_init(2), T = _arb_vec_init(2), C = _arb_vec_init(2);
-    iso_status status = ISO_OK;
-    iso_balls_init(&half, sizeof half);
+    ISO_BALLS_OF(half);
+    ISO_BALL_ROW(z, 2);
+    ISO_BALL_ROW(T, 2);
+    ISO_BALL_ROW(C, 2);
     arb_set(z, start->xi), arb_mul(z + 1, z, o->s, f->bits);
     arb_one(T), arb_set(T + 1, o->s);
-    for (long i = 0; i < start->halves && status == ISO_OK; i++) {
-        status = prove_half_return(f, (prove_part){0, 1}, z, z + 1, PROVE_STATE, &half);
+    for (long i = 0; i < start->halves; i++) {
+        ISO_TRY(prove_half_return(f, (prove_part){0, 1}, z, z + 1, PROVE_STATE, &half));
         prove_apply(half.D, T, NULL, f->bits, T);
         prove_apply(half.D, C, half.D + 4, f->bits, C);
         for (int j = 0; j < 2; j++) {
@@ -167,9 +152,7 @@ static iso_status find_drift(prove_flow *f, const prove_local *o, prove_start *s
     arb_div(start->drift, C, T, f->bits);
     arb_neg(start->drift, start->drift);
     arb_get_mid_arb(start->drift, start->drift);
-    _arb_vec_clear(z, 2), _arb_vec_clear(T, 2), _arb_vec_clear(C, 2);
-    iso_balls_clear(&half, sizeof half);
-    return status;
+    return ISO_OK;
 }
 
 iso_status prove_search(const prove_flow *f, const prove_local *o, bool with_drift, prove_start *start)

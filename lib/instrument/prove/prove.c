@@ -106,23 +106,21 @@ static iso_status make_plan(iso_context *ctx, const iso_proof_ball *ball, const 
 static iso_status find(iso_context *ctx, const iso_proof_ball *ball, const iso_prove_request *r, plan *p,
                        iso_proof *proof, char **text, int *failed)
 {
-    iso_status status = ISO_OK;
     *failed = 0;
-    for (int i = 0; i < p->attempts && status == ISO_OK && proof->sign == 0; i++) {
+    for (int i = 0; i < p->attempts && proof->sign == 0; i++) {
         iso_proof next;
         char *next_text = NULL;
-        status = iso_proof_find(ctx, ball, p->digits[i], &p->work, &next, r->certificate ? &next_text : NULL);
-        if (status != ISO_OK) *failed = p->digits[i];
-        if (status != ISO_OK) continue;
+        const iso_status status =
+            iso_proof_find(ctx, ball, p->digits[i], &p->work, &next, r->certificate ? &next_text : NULL);
+        if (status != ISO_OK) {
+            *failed = p->digits[i];
+            return proof->digits > 0 && status == ISO_NUMERICAL ? ISO_OK : status;
+        }
         *proof = next;
-        char k[2][ISO_RATIONAL_SIZE];
-        for (int j = 0; j < 2; j++) iso_rational_print(k[j], &ball->k[j]);
-        const bool thin = iso_proof_is_thin(ball);
-        snprintf(proof->exact, sizeof proof->exact, "%s%s%s", k[0], thin ? "" : ":", thin ? "" : k[1]);
         free(*text);
         *text = next_text;
     }
-    return proof->digits > 0 && status == ISO_NUMERICAL ? ISO_OK : status;
+    return ISO_OK;
 }
 
 /* --- an interval ------------------------------------------------------------------------------------------------ */
@@ -148,7 +146,12 @@ static iso_status add(work *w, const iso_proof *proof, char *text)
     iso_proof *row = realloc(f->row, (f->rows + 1) * sizeof *row);
     if (!row) return iso_context_no_memory(w->ctx, "%zu pieces", f->rows + 1);
     f->row = row;
-    f->row[f->rows++] = *proof;
+    row += f->rows++;
+    *row = *proof;
+    char k[2][ISO_RATIONAL_SIZE];
+    for (int i = 0; i < 2; i++) iso_rational_print(k[i], &row->ball.k[i]);
+    const bool thin = iso_proof_is_thin(&row->ball);
+    snprintf(row->exact, sizeof row->exact, "%s%s%s", k[0], thin ? "" : ":", thin ? "" : k[1]);
     return ISO_OK;
 }
 

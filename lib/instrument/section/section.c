@@ -67,47 +67,35 @@ bool iso_section_is_of_axis(int column, double value, int *axis)
     return false;
 }
 
-/* --- what is refused -------------------------------------------------------------------------------------------- */
+/* --- what is asked for ------------------------------------------------------------------------------------------ */
 
-static iso_status check_starts(const iso_section_walk *w)
+/* Checks the options, and chooses effects and models. Observers cost time. They stay only where the column of an effect
+ * is used: one of them may need another. */
+static iso_status check(iso_section_walk *w)
 {
-    const iso_section_options *o = &w->options;
-    if (o->starts == 0 && o->at_count == 0) return ISO_OK;
-    if (!w->chart)
-        return ISO_FAIL_INPUT(w->ctx, "starts", "no other starts can be given here: an event has no chart");
-    return iso_refuse_starts(w->ctx, w->orbit, &w->effects, o->axis, o->at, o->at_count, o->starts > 0);
-}
-
-static iso_status check_column(const iso_section_walk *w)
-{
-    const int column = w->options.column;
-    if (w->chart || column >= iso_columns_count() || column < ISO_COLUMN_EFFECTS) return ISO_OK;
-    const iso_effect_id effect = iso_column_effect(column);
-    if (w->scene->effects.on[effect]) return ISO_OK;
-    return ISO_FAIL_INPUT(w->ctx, "columns", "column '%s' needs the effect '%s'", iso_column_name(column),
-                          iso_effect_list[effect]->name);
-}
-
-/* --- what is done ----------------------------------------------------------------------------------------------- */
-
-/* Observers cost time. They stay only where the column of an effect is used: one of them may need another. */
-static void choose_effects(iso_section_walk *w)
-{
-    const int column = w->options.column;
-    w->effects = iso_scene_acting(w->scene);
-    if (column >= ISO_COLUMN_EFFECTS && column < iso_columns_count()) w->effects = iso_scene_effects(w->scene);
-}
-
-static void choose_models(iso_section_walk *w)
-{
+    iso_section_options *o = &w->options;
     const iso_effects *e = &w->effects;
-    iso_models models = w->options.models;
-    if (models == ISO_SHOW_START)
-        models = iso_effects_breaking(e) || iso_effects_ball_only(e) ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
+    if (o->crossings == 0) return ISO_FAIL_ARGUMENT(w->ctx, "crossings", "no crossing is asked for");
+    if (iso_crossings_check_axis(w->ctx, o->axis) != ISO_OK) return ISO_BAD_ARGUMENT;
+    if (isnan(o->tolerance)) o->tolerance = w->scene->tolerance;
+    if (iso_section_is_of_axis(o->column, o->value, &o->axis)) o->column = -1;
+    w->chart = o->column < 0;
+    const bool of_effect = o->column >= ISO_COLUMN_EFFECTS && o->column < iso_columns_count();
+    w->effects = of_effect ? iso_scene_effects(w->scene) : iso_scene_acting(w->scene);
+    const iso_effect *breaking = iso_effects_breaking(e);
+    iso_models models = o->models;
+    if (models == ISO_SHOW_START) models = breaking || iso_effects_ball_only(e) ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
     w->result->models = models;
     w->models = models == ISO_SHOW_BOTH ? 2 : 1;
     w->model[0] = models == ISO_SHOW_POINT ? ISO_POINT : ISO_BALL;
     w->model[1] = ISO_POINT;
+    if (breaking && (o->shown == ISO_SHOW_POINT || o->shown == ISO_SHOW_BOTH))
+        return iso_orbit_no_point(w->ctx, breaking);
+    w->result->orbits = 1 + o->starts + o->at_count;
+    ISO_TRY(iso_refuse_rest(w->ctx, &w->scene->start, e, ISO_NO_RETURN));
+    if (!of_effect || w->scene->effects.on[iso_column_effect(o->column)]) return ISO_OK;
+    return ISO_FAIL_INPUT(w->ctx, "columns", "column '%s' needs the effect '%s'", iso_column_name(o->column),
+                          iso_effect_list[iso_column_effect(o->column)]->name);
 }
 
 /* The scene's own orbit, with all clocks if their numbers fit a double. */
@@ -129,51 +117,7 @@ static iso_status open_orbit(iso_section_walk *w)
     return iso_orbit_create(w->ctx, &w->scene->params, &w->scene->start, &o, &w->orbit);
 }
 
-/* The states shown; with those of the ball, the columns of its effects. */
-static void choose_columns(iso_section_walk *w)
-{
-    const iso_models shown = w->options.shown;
-    const bool ball = shown == ISO_SHOW_BALL || shown == ISO_SHOW_BOTH;
-    const bool point = shown == ISO_SHOW_POINT || shown == ISO_SHOW_BOTH;
-    for (int c = ISO_COLUMN_BALL; c < iso_columns_count(); c++) {
-        const iso_effect_id effect = iso_column_effect(c);
-        const bool there = c < ISO_COLUMN_POINT     ? ball
-                           : c < ISO_COLUMN_EFFECTS ? point
-                                                    : ball && effect < ISO_EFFECTS && w->effects.on[effect];
-        if (there) w->columns[w->count++] = c;
-    }
-}
-
 /* --- the whole -------------------------------------------------------------------------------------------------- */
-
-static iso_status check(iso_section_walk *w)
-{
-    iso_section_options *o = &w->options;
-    if (o->crossings == 0) return ISO_FAIL_ARGUMENT(w->ctx, "crossings", "no crossing is asked for");
-    if (iso_crossings_check_axis(w->ctx, o->axis) != ISO_OK) return ISO_BAD_ARGUMENT;
-    if (isnan(o->tolerance)) o->tolerance = w->scene->tolerance;
-    if (iso_section_is_of_axis(o->column, o->value, &o->axis)) o->column = -1;
-    w->chart = o->column < 0;
-    choose_effects(w);
-    choose_models(w);
-    const iso_effect *breaking = iso_effects_breaking(&w->effects);
-    if (breaking && (o->shown == ISO_SHOW_POINT || o->shown == ISO_SHOW_BOTH))
-        return iso_orbit_no_point(w->ctx, breaking);
-    w->result->orbits = 1 + o->starts + o->at_count;
-    const iso_status status = iso_refuse_rest(w->ctx, &w->scene->start, &w->effects, ISO_NO_RETURN);
-    return status == ISO_OK ? check_column(w) : status;
-}
-
-static void tell_nature(iso_section_walk *w)
-{
-    iso_section_nature *n = &w->result->nature;
-    *n = iso_section_of(w->orbit, w->options.axis);
-    if (w->chart)
-        w->options.axis = n->axis;
-    else
-        *n = (iso_section_nature){.axis = -1, .words = "an event is not known to be a global section"};
-    if (!n->global && w->sink->note) w->sink->note(w->sink->data, n->words);
-}
 
 bool iso_section_has_returns(const iso_section_walk *w)
 {
@@ -185,28 +129,37 @@ bool iso_section_has_returns(const iso_section_walk *w)
 iso_status iso_section_begin(iso_section_walk *w, iso_context *ctx, const iso_scene *scene,
                              const iso_section_options *options)
 {
+    iso_section_options *o = &w->options;
     w->ctx = ctx;
     w->scene = scene;
-    w->options = options ? *options : iso_section_defaults();
+    *o = options ? *options : iso_section_defaults();
     *w->result = (iso_section_result){.nature = {.axis = -1}};
     ISO_TRY(check(w));
     ISO_TRY(open_orbit(w));
-    if (!w->areas) ISO_TRY(iso_refuse_losses(w->ctx, w->orbit, ISO_NO_RETURN));
-    if (w->options.axis == ISO_AXIS_AUTO) w->options.axis = iso_section_axis(iso_orbit_motion(w->orbit));
-    ISO_TRY(check_starts(w));
-    choose_columns(w);
-    w->starts = (iso_starts){.scene = w->scene,
+    if (!w->areas) ISO_TRY(iso_refuse_losses(ctx, w->orbit, ISO_NO_RETURN));
+    if (o->axis == ISO_AXIS_AUTO) o->axis = iso_section_axis(iso_orbit_motion(w->orbit));
+    if (o->starts + o->at_count > 0 && !w->chart)
+        return ISO_FAIL_INPUT(ctx, "starts", "no other starts can be given here: an event has no chart");
+    if (o->starts + o->at_count > 0)
+        ISO_TRY(iso_refuse_starts(ctx, w->orbit, &w->effects, o->axis, o->at, o->at_count, o->starts > 0));
+    /* the states shown; with those of the ball, the columns of its effects */
+    const bool both = o->shown == ISO_SHOW_BOTH, ball = both || o->shown == ISO_SHOW_BALL;
+    for (int c = ISO_COLUMN_BALL; c < iso_columns_count(); c++) {
+        const iso_effect_id effect = iso_column_effect(c);
+        if (c < ISO_COLUMN_POINT     ? ball
+            : c < ISO_COLUMN_EFFECTS ? both || o->shown == ISO_SHOW_POINT
+                                     : ball && effect < ISO_EFFECTS && w->effects.on[effect])
+            w->columns[w->count++] = c;
+    }
+    w->starts = (iso_starts){.scene = scene,
                              .orbit = w->orbit,
                              .effects = &w->effects,
-                             .axis = w->options.axis,
-                             .spread = w->options.starts,
-                             .seed = w->options.seed,
-                             .at = w->options.at};
+                             .axis = o->axis,
+                             .spread = o->starts,
+                             .seed = o->seed,
+                             .at = o->at};
     iso_starts_prepare(&w->starts);
-    for (int m = 0; m < w->models; m++) {
-        const iso_walk walk = iso_section_plan(w, m);
-        ISO_TRY(iso_crossings_check(w->ctx, &walk.options[0]));
-    }
+    for (int m = 0; m < w->models; m++) ISO_TRY(iso_crossings_check(ctx, &iso_section_plan(w, m).options[0]));
     return ISO_OK;
 }
 
@@ -216,9 +169,14 @@ iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_s
     ISO_DEFAULT_ARITHMETIC;
     iso_section_result unused;
     iso_section_walk w = {.sink = sink, .tables = tables, .result = result ? result : &unused};
+    iso_section_nature *n = &w.result->nature;
     iso_status status = iso_section_begin(&w, ctx, scene, options);
-    if (status == ISO_OK) tell_nature(&w);
-    if (status == ISO_OK) status = iso_section_walk_all(&w);
+    if (status == ISO_OK) {
+        *n = w.chart ? iso_section_of(w.orbit, w.options.axis)
+                     : (iso_section_nature){.axis = -1, .words = "an event is not known to be a global section"};
+        if (!n->global && sink->note) sink->note(sink->data, n->words);
+        status = iso_section_walk_all(&w);
+    }
     iso_orbit_free(w.orbit);
     if (status == ISO_OK && w.result->rows == 0 && w.result->failed > 0)
         return iso_context_fail(ctx, w.result->failure, "", "%s", w.result->words);

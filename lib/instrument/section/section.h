@@ -51,14 +51,12 @@ typedef struct iso_section_options {
 /* 500 crossings of the global section by the scene's own orbit, both models, no states. */
 static inline iso_section_options iso_section_defaults(void)
 {
-    iso_section_options o = {0};
-    o.crossings = 500;
-    o.axis = ISO_AXIS_AUTO;
-    o.column = -1;
-    o.models = ISO_SHOW_START;
-    o.shown = ISO_SHOW_START;
-    o.tolerance = NAN;
-    return o;
+    return (iso_section_options){.crossings = 500,
+                                 .axis = ISO_AXIS_AUTO,
+                                 .column = -1,
+                                 .models = ISO_SHOW_START,
+                                 .shown = ISO_SHOW_START,
+                                 .tolerance = NAN};
 }
 
 /* Two models part on an orbit when their distance passes this. On chaotic orbits the rounding errors of the models
@@ -71,7 +69,7 @@ typedef struct iso_section_result {
     size_t orbits, rows; /* orbits asked for; rows that the sink has taken                                       */
     size_t crossings[2]; /* found by the ball, by the point                                                      */
     size_t failed;       /* orbits that have fewer crossings than asked for                                      */
-    iso_status failure;  /* of the first of them, with its words                                                 */
+    iso_status failure;  /* of the first of them, with its text                                                 */
     char words[512];
     /* With both models. The distance of two crossings is the larger one of |dl| and |dx|. On an event it is |dt|,
      * divided by the mean time between crossings. */

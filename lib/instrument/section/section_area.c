@@ -22,26 +22,6 @@
  * LARGEST; beyond so many bounds it is not kept. */
 static const double ERRORS = 300, LARGEST = 1e-3, BEYOND = 10;
 
-static void add_return(iso_section_area *a, const iso_crossing *c, double tolerance)
-{
-    const double grown = exp(fmax(0, c->growth[0]) + fmax(0, c->growth[1]));
-    const double bound = ERRORS * fmax(tolerance, 1e-15) * (double)(a->turns + 1) * grown;
-    const double off = fabs(c->determinant - 1);
-    if (!(bound < LARGEST) || isnan(off)) return;
-    a->turns++;
-    /* the return that says most */
-    if (a->turns > 1 && off * a->bound <= a->worst * bound) return;
-    a->worst = off;
-    a->bound = bound;
-}
-
-/* lost: an effect takes energy. Then the area is lost as well, though perhaps by less than can be seen. */
-static const char *verdict_of(const iso_section_area *a, bool lost)
-{
-    if (a->turns == 0) return "undecided";
-    return a->worst > BEYOND * a->bound ? "not kept" : a->worst <= a->bound && !lost ? "kept" : "undecided";
-}
-
 /* Effects that have states of their own move in more than the four dimensions of (omega, n). Where the energy is
  * neither constant nor lost, D compares areas on levels of different energies, and says nothing of the measure (10),
  * which has four dimensions. */
@@ -79,8 +59,17 @@ typedef struct area_walk {
 
 static iso_status visit(void *user, size_t i, const iso_walk_stop *stop)
 {
-    const area_walk *a = user;
-    add_return(&a->orbit[i], stop->crossing[0], a->w.options.tolerance);
+    const area_walk *walk = user;
+    const iso_crossing *c = stop->crossing[0];
+    iso_section_area *a = &walk->orbit[i];
+    const double grown = exp(fmax(0, c->growth[0]) + fmax(0, c->growth[1]));
+    const double bound = ERRORS * fmax(walk->w.options.tolerance, 1e-15) * (double)(a->turns + 1) * grown;
+    const double off = fabs(c->determinant - 1);
+    if (!(bound < LARGEST) || isnan(off)) return ISO_OK;
+    a->turns++;
+    if (a->turns > 1 && off * a->bound <= a->worst * bound) return ISO_OK; /* another return says more */
+    a->worst = off;
+    a->bound = bound;
     return ISO_OK;
 }
 
@@ -119,8 +108,12 @@ iso_status iso_section_areas_find(iso_context *ctx, const iso_scene *scene, cons
         areas->count += walk.begun;
         if (!*areas->words) memcpy(areas->words, walk.text, sizeof areas->words);
     }
+    /* where an effect takes energy the area is lost as well, though perhaps by less than can be seen */
     const bool lost = areas->count > 0 && iso_effects_taking_energy(&iso_orbit_model(a.w.orbit)->problem);
-    for (size_t i = 0; i < areas->count; i++) areas->orbit[i].kept = verdict_of(&areas->orbit[i], lost);
+    for (iso_section_area *o = areas->orbit; o < areas->orbit + areas->count; o++)
+        o->kept = o->turns > 0 && o->worst > BEYOND * o->bound    ? "not kept"
+                  : o->turns > 0 && o->worst <= o->bound && !lost ? "kept"
+                                                                  : "undecided";
     iso_orbit_free(a.w.orbit);
     return status;
 }

@@ -51,7 +51,7 @@ bool iso_section_has_returns(const iso_section_walk *w);
 /* The walk of all orbits by one model (0: the first). Its visitor is to be set. */
 iso_walk iso_section_plan(iso_section_walk *w, int model);
 
-/* Finds all crossings and gives the rows to the sink. Errors: of the sink, ISO_STOPPED, ISO_NO_MEMORY. */
+/* Finds all crossings and passes the rows to the sink. Errors: of the sink, ISO_STOPPED, ISO_NO_MEMORY. */
 iso_status iso_section_walk_all(iso_section_walk *w);
 
 /* The nature of n_a = 0 for this orbit (axis: 0 to 2, or ISO_AXIS_AUTO). */
@@ -68,7 +68,7 @@ double iso_section_distance(const iso_crossing *a, const iso_crossing *b);
  * a chaotic orbit, or there are too few crossings to tell. */
 double iso_section_rotation(const double (*z)[2], size_t count);
 
-/* What the options of the study hold. */
+/* The options of the study. */
 typedef struct iso_section_request {
     iso_section_options how;
     iso_section_words words;
@@ -90,7 +90,7 @@ typedef struct iso_section_area {
 } iso_section_area;
 
 typedef struct iso_section_areas {
-    bool returns; /* det D is told at the returns; else at equal steps of a clock, about a turn each */
+    bool returns; /* det D is computed at the returns; else at equal steps of a clock, about a turn each */
     size_t count;
     iso_section_area *orbit;
     char words[512]; /* of the first orbit that failed */
@@ -104,7 +104,7 @@ iso_status iso_section_areas_find(iso_context *ctx, const iso_scene *scene, cons
                                   void (*progress)(void *data, double part), void *data, iso_section_areas *areas);
 void iso_section_areas_free(iso_section_areas *areas);
 
-/* What it tells people, and the lines of its table (section_print.c). */
+/* Its text (section_print.c). */
 void iso_section_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
 
 #endif

@@ -1,4 +1,4 @@
-/* section_study.c - the section by its name: its options, as words first, and its tables (study/study.h). */
+/* section_study.c - the section by its name: its options, as text first, and its tables (study/study.h). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,8 +44,6 @@ static iso_status prepare(iso_context *ctx, void *options)
     return status;
 }
 
-/* --- tables ----------------------------------------------------------------------------------------------------- */
-
 ISO_STUDY_BEGIN(iso_section_request, (iso_section_request){.how = iso_section_defaults()})
 
 static void end(void *options)
@@ -53,22 +51,7 @@ static void end(void *options)
     free(((iso_section_request *)options)->words.points);
 }
 
-static iso_status find_crossings(iso_context *ctx, const iso_scene *scene, const iso_section_request *request,
-                                 iso_study_result *result)
-{
-    iso_section_result *r = iso_study_keep(result, calloc(1, sizeof *r), NULL, free);
-    if (!r) return iso_context_no_memory(ctx, "a section");
-    const iso_status status =
-        iso_section_run(ctx, scene, &request->how, &result->sink, result->sink.row ? NULL : result->table, r);
-    for (int i = 0; i < 2; i++)
-        if (result->table[i]) iso_record_set_kind(result->table[i], "section");
-    result->failed = r->failed > 0;
-    if (r->failed > 0 && r->rows > 0)
-        iso_study_note(result, "%zu of %zu orbits did not get to the end; %s", r->failed, r->orbits, r->words);
-    return status;
-}
-
-/* --- areas ------------------------------------------------------------------------------------------------------ */
+/* --- tables ----------------------------------------------------------------------------------------------------- */
 
 #define FIELD(key, member, ...) ISO_MEMBER(iso_section_area, key, member, __VA_ARGS__)
 
@@ -114,8 +97,18 @@ static iso_status find_areas(iso_context *ctx, const iso_scene *scene, const iso
 static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result)
 {
-    const iso_section_request *r = options;
-    return r->area ? find_areas(ctx, subject->scene, r, result) : find_crossings(ctx, subject->scene, r, result);
+    const iso_section_request *request = options;
+    if (request->area) return find_areas(ctx, subject->scene, request, result);
+    iso_section_result *r = iso_study_keep(result, calloc(1, sizeof *r), NULL, free);
+    if (!r) return iso_context_no_memory(ctx, "a section");
+    const iso_status status = iso_section_run(ctx, subject->scene, &request->how, &result->sink,
+                                              result->sink.row ? NULL : result->table, r);
+    for (int i = 0; i < 2; i++)
+        if (result->table[i]) iso_record_set_kind(result->table[i], "section");
+    result->failed = r->failed > 0;
+    if (r->failed > 0 && r->rows > 0)
+        iso_study_note(result, "%zu of %zu orbits did not get to the end; %s", r->failed, r->orbits, r->words);
+    return status;
 }
 
 #define ROW(name, argument, expected, doc, set, member)                                                              \

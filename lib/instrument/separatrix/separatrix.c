@@ -4,21 +4,12 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/names_impl.h"
 #include "instrument/separatrix/separatrix_impl.h"
 
 ISO_NAMES(iso_separatrix_digits_name, int, "double", "quad", "auto")
-
-/* Terms of the polynomial, and of the one that is compared with it. Its domain is 3/4 as large. */
-typedef struct numbers {
-    int terms, other;
-    int digits;
-} numbers;
-
-static const numbers with_64_bits = {ISO_MANIFOLD_TERMS_64, 10, 19}, with_106_bits = {21, 18, 32};
 
 /* --- one computation -------------------------------------------------------------------------------------------- */
 
@@ -59,18 +50,19 @@ static void fill(const iso_manifold *m, const iso_manifold_crossing *c, const is
     s->from_zero = fabs(s->m) > 100 * s->error;
 }
 
-/* The crossing, and the same by another polynomial on 3/4 of the domain. */
-static iso_status compute(iso_manifold *m, const numbers *l, iso_manifold_crossing *c, iso_separatrix_splitting *s)
+/* The crossing, and the same by another polynomial, of so many terms, on 3/4 of the domain. digits: of the numbers. */
+static iso_status compute(iso_manifold *m, int terms, int digits, iso_manifold_crossing *c,
+                          iso_separatrix_splitting *s)
 {
     ISO_TRY(iso_manifold_refine(m, c));
     iso_manifold other = *m;
     iso_manifold_crossing again = *c;
-    iso_manifold_resize(&other, m->size * 3 / 4, l->other);
+    iso_manifold_resize(&other, m->size * 3 / 4, terms);
     ISO_TRY(iso_manifold_solve(&other));
     again.theta *= m->size / other.size;
     while (again.theta > 1) again.theta /= m->lambda, again.halves++;
     ISO_TRY(iso_manifold_refine(&other, &again));
-    fill(m, c, &again, l->digits, s);
+    fill(m, c, &again, digits, s);
     return ISO_OK;
 }
 
@@ -78,9 +70,7 @@ static iso_status compute(iso_manifold *m, const numbers *l, iso_manifold_crossi
 
 static void begin(double k, double level, iso_separatrix_splitting *s)
 {
-    memset(s, 0, sizeof *s);
-    s->k = k;
-    s->level = level;
+    *s = (iso_separatrix_splitting){.k = k, .level = level};
     s->lambda = s->x = s->m = s->section_x = s->section_m = s->error = s->x_error = s->next_l = s->next_x =
         s->next_m = NAN;
 }
@@ -95,9 +85,9 @@ static iso_status find_finer(iso_manifold *m, iso_manifold_crossing *c, iso_sepa
     if (digits == ISO_SEPARATRIX_DOUBLE || (digits == ISO_SEPARATRIX_AUTO && !(unclear && iso_return_build_of(true))))
         return ISO_OK;
     iso_status status = iso_manifold_use(m, iso_return_build_of(true));
-    m->terms = with_106_bits.terms;
+    m->terms = 21;
     if (status == ISO_OK) status = iso_manifold_solve(m);
-    if (status == ISO_OK) status = compute(m, &with_106_bits, c, s);
+    if (status == ISO_OK) status = compute(m, 18, 32, c, s);
     if (status != ISO_NUMERICAL || digits == ISO_SEPARATRIX_QUAD) return status;
     snprintf(s->text, sizeof s->text, "128 bits failed: %s", iso_context_message(m->ctx));
     *m = kept;
@@ -116,11 +106,10 @@ static iso_status find(iso_context *ctx, const double J[3], iso_separatrix_digit
     s->section = m.axis;
     s->middle = m.corner == 0 ? (m.axis + 2) % 3 : (m.axis + 1) % 3;
     s->axis = (s->middle + 1) % 3;
-    iso_status status = iso_manifold_first(&m, &c);
-    if (status == ISO_OK) status = compute(&m, &with_64_bits, &c, s);
-    if (status == ISO_OK) status = find_finer(&m, &c, digits, s);
-    if (status != ISO_OK || !next) return status;
-    status = iso_manifold_next(&m, &c, &n);
+    ISO_TRY(iso_manifold_first(&m, &c));
+    ISO_TRY(compute(&m, 10, 19, &c, s));
+    ISO_TRY(find_finer(&m, &c, digits, s));
+    const iso_status status = next ? iso_manifold_next(&m, &c, &n) : ISO_NUMERICAL;
     if (status != ISO_OK) return status == ISO_NUMERICAL ? ISO_OK : status;
     s->next_l = (double)iso_wide_turned(n.z[0] + m.corner);
     s->next_x = (double)n.z[1];

@@ -23,7 +23,7 @@
 
 #include "base/field.h"
 #include "base/record.h"
-#include "orbit/scene.h"
+#include "study/options_impl.h"
 
 /* Numbers of 64 bits of mantissa, of 128 (113 of mantissa), or the first and where |m| < 1000 errors the second. */
 typedef enum iso_separatrix_digits {
@@ -70,22 +70,18 @@ typedef struct iso_separatrix_options {
     const double *k; /* the values, in any order                                              */
     size_t count;
     double J[3];
-    /* No effect but a level may act on its ball; its k and J are read for its level alone. NULL: a free ball. */
-    const iso_scene *scene;
     iso_separatrix_digits digits;
-    bool zeros;  /* look for zeros of m between neighbours of this list                    */
     int threads; /* 0: as many as there are processors to run on                           */
     /* progress(part): the part of the work that is done, in [0, 1]; NULL: no calls. */
     void (*progress)(void *data, double part);
     void *data;
-    const double *level; /* one for each k; NULL: the scene's level everywhere */
+    const double *level; /* one for each k; NULL: 0 everywhere */
 } iso_separatrix_options;
 
 static inline iso_separatrix_options iso_separatrix_defaults(void)
 {
     iso_separatrix_options o = {0};
     o.digits = ISO_SEPARATRIX_AUTO;
-    o.zeros = true;
     return o;
 }
 
@@ -104,9 +100,7 @@ typedef struct iso_separatrix_table {
  * neighbours that are distinguished from 0 if their r have opposite signs. Neighbours have the same level, or else
  * the same k. There the manifolds touch at one point. If they cross at the next one (next_m != 0), there is no
  * additional integral. A failure at one k stands in its row, and is no failure of the call. Errors: ISO_BAD_ARGUMENT
- * (no k; "digits"); ISO_BAD_INPUT about "J", where two moments are equal, and about an effect that acts on the
- * ball, other than `level`; where the scene starts as a point, or has a level, those of iso_orbit_create;
- * ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *s has the rows that are done. */
+ * (no k; "digits"); ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *s has the rows that are done. */
 iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *options, iso_separatrix_table **s);
 void iso_separatrix_free(void *table);
 
@@ -114,5 +108,31 @@ void iso_separatrix_free(void *table);
  * crossing, in numbers of 64 bits. (pi - u, x) is the stable manifold of O'. Errors: as iso_separatrix_at. */
 iso_status iso_separatrix_curve(iso_context *ctx, double k, const double J[3], double level, int halves,
                                 iso_record **curve);
+
+/* --- the study (separatrix_study.c, separatrix_print.c) ---------------------------------------------------------- */
+
+/* The study's part of shared refusals (study_impl.h). */
+#define ISO_SPLITTING_IS "the splitting is measured"
+#define ISO_NO_SPLITTING "no separatrix splits"
+
+/* Values of --k or --level: as they are typed (NULL: not given), and as numbers. */
+typedef struct iso_separatrix_list {
+    const char *name, *text;
+    double *x;
+    size_t count;
+} iso_separatrix_list;
+
+typedef struct iso_separatrix_request {
+    iso_separatrix_list k, level;
+    iso_separatrix_options how; /* digits and threads */
+} iso_separatrix_request;
+
+/* Its text, and the lines of its table. */
+void iso_separatrix_print(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result);
+iso_status iso_separatrix_describe(iso_context *ctx, const iso_scene *scene, const void *options,
+                                   iso_study_result *result);
+
+/* The row whose curves are best seen: |m| is about 1/30. NULL: there is none. */
+const iso_separatrix_splitting *iso_separatrix_clearest(const iso_separatrix_table *s);
 
 #endif

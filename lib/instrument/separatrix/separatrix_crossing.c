@@ -118,15 +118,14 @@ static iso_status measure_scatter(const iso_manifold *m, approach *a, iso_manifo
 {
     const iso_wide theta = c->theta, unit = (iso_wide)m->code->error;
     iso_manifold_crossing beside = *c;
-    iso_status status = ISO_OK;
     if (!a->bent) {
-        status = approach_at(m, theta * (1 - 10000000 * unit), a, &beside);
-        if (status == ISO_OK) status = approach_at(m, theta, a, c);
+        ISO_TRY(approach_at(m, theta * (1 - 10000000 * unit), a, &beside));
+        ISO_TRY(approach_at(m, theta, a, c));
     }
-    if (status == ISO_OK) status = approach_at(m, theta * (1 - 1000 * unit), a, &beside);
+    ISO_TRY(approach_at(m, theta * (1 - 1000 * unit), a, &beside));
     c->scatter[0] = fabs((double)(beside.z[1] - c->z[1]));
     c->scatter[1] = fabs((double)(beside.slope - c->slope));
-    return status;
+    return ISO_OK;
 }
 
 /* Newton's method. */

@@ -21,10 +21,6 @@
 #include "instrument/separatrix/separatrix.h"
 #include "method/wide_impl.h"
 
-/* The study's part of shared refusals (study_impl.h). */
-#define ISO_SPLITTING_IS "the splitting is measured"
-#define ISO_NO_SPLITTING "no separatrix splits"
-
 enum { ISO_MANIFOLD_TERMS = 24, ISO_MANIFOLD_TERMS_64 = 12 }; /* room; those that suit 64 bits */
 
 /* W(theta) = theta (v r + y sum_i c_i T*_i(y)), y = theta^2, |theta| <= 1, T*_i(y) = cos(i acos(2y - 1)): an odd

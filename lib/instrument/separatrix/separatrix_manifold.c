@@ -37,22 +37,10 @@ static iso_status map_half(const iso_manifold *m, const iso_wide z[2], iso_wide 
     return good ? ISO_OK : iso_manifold_lost(m, "a return could not be computed");
 }
 
-/* lambda must be 1.01 or more, that of a whole return 1.02: with smaller ones the crossing is very many half returns
- * away. m is estimated at exp(-2 pi^2/ln lambda^2), which is 2e-429 at this bound: 1e-427 or less. No bound of m is
- * computed then, so none is stated. */
-static iso_status check_trace(const iso_manifold *m, double trace)
-{
-    const double apart = trace - 2; /* (lambda - 1)^2/lambda */
-    if (apart > 1e-4) return ISO_OK;
-    const double exponent = 2 * sqrt(fmax(apart, 1e-15)); /* ln lambda^2 */
-    return ISO_FAIL_INPUT(m->ctx, "J",
-                          "splitting at k = %s: the middle axis has the multiplier 1 + %.1e, too near 1: m is "
-                          "about exp(-2 pi^2/ln of it) = 1e-%.0f or less, which 128 bits do not tell from 0",
-                          ISO_SHORT(m->problem.p.k), expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
-}
-
 /* lambda and v from the derivative at the fixed point, whose determinant is 1. Terms of the series are kept to a
- * hundredth of a rounding error. */
+ * hundredth of a rounding error. lambda must be 1.01 or more, that of a whole return 1.02: with smaller ones the
+ * crossing is very many half returns away. m is estimated at exp(-2 pi^2/ln lambda^2), which is 2e-429 at this bound:
+ * 1e-427 or less. No bound of m is computed then, so none is stated. */
 iso_status iso_manifold_use(iso_manifold *m, const iso_return_build *code)
 {
     const iso_wide origin[2] = {0, 0};
@@ -61,7 +49,14 @@ iso_status iso_manifold_use(iso_manifold *m, const iso_return_build *code)
     m->tolerance = code == &iso_return_extended ? 1e-15 : 1e-17;
     ISO_TRY(map_half(m, origin, image, A));
     const iso_wide trace = A[0][0] + A[1][1];
-    ISO_TRY(check_trace(m, (double)trace));
+    const double apart = (double)trace - 2; /* (lambda - 1)^2/lambda */
+    if (!(apart > 1e-4)) {
+        const double exponent = 2 * sqrt(fmax(apart, 1e-15)); /* ln lambda^2 */
+        return ISO_FAIL_INPUT(m->ctx, "J",
+                              "splitting at k = %s: the middle axis has the multiplier 1 + %.1e, too near 1: m is "
+                              "about exp(-2 pi^2/ln of it) = 1e-%.0f or less, which 128 bits do not tell from 0",
+                              ISO_SHORT(m->problem.p.k), expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
+    }
     m->lambda = (trace + WIDE_ROOT((trace - 2) * (trace + 2))) / 2;
     m->v[0] = A[0][1];
     m->v[1] = m->lambda - A[0][0];

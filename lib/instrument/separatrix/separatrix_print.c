@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/number_impl.h"
-#include "instrument/separatrix/separatrix_study_impl.h"
+#include "instrument/separatrix/separatrix.h"
 #include "study/study_impl.h"
 
 static void print_head(FILE *to, const double J[3], const iso_separatrix_table *t)

@@ -7,8 +7,6 @@
 #include "base/math_impl.h"
 #include "base/pool_impl.h"
 #include "instrument/separatrix/separatrix_impl.h"
-#include "orbit/orbit_impl.h"
-#include "study/study_impl.h"
 
 /* m has the zeros k = 1 and k = -1 anyway. Others are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1), which is of the
  * same size everywhere. Two neighbours with one between, along k or along the level. */
@@ -23,7 +21,6 @@ typedef struct bracket {
 typedef struct scan {
     const iso_separatrix_options *o;
     iso_separatrix_table *s;
-    double level; /* where the options have none */
     const bracket *bracket;
     atomic_size_t done;
 } scan;
@@ -36,18 +33,12 @@ static double reduced(const iso_separatrix_splitting *s, double m)
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-static double level_of(const scan *c, size_t i)
-{
-    return c->o->level ? c->o->level[i] : c->level;
-}
-
 static bool solve_rows(iso_pool_worker *w, void *data, size_t first, size_t count)
 {
     scan *c = data;
     for (size_t i = first; i < first + count; i++) {
-        if (iso_separatrix_at(w->ctx, c->o->k[i], c->o->J, level_of(c, i), c->o->digits, &c->s->row[i]) ==
-            ISO_NO_MEMORY)
-            return false;
+        iso_separatrix_splitting *s = &c->s->row[i];
+        if (iso_separatrix_at(w->ctx, s->k, c->o->J, s->level, c->o->digits, s) == ISO_NO_MEMORY) return false;
         const size_t now = atomic_fetch_add(&c->done, 1) + 1;
         if (w->asks && c->o->progress) c->o->progress(c->o->data, (double)now / (double)c->o->count);
     }
@@ -81,23 +72,22 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
     iso_separatrix_splitting s;
     int kept = -1;
     double r = NAN, error = NAN, aside = NAN, end[2] = {b->r[0], b->r[1]};
-    iso_status status = ISO_OK;
-    for (int i = 0; i < MOST && status == ISO_OK; i++) {
+    for (int i = 0; i < MOST; i++) {
         const double last = *at;
         *at = (b->at[0] * end[1] - b->at[1] * end[0]) / (end[1] - end[0]);
-        status = value_at(w, c, b, *at, false, &s, &r, &error);
+        ISO_TRY(value_at(w, c, b, *at, false, &s, &r, &error));
         /* next to +-1 r is not known: m is not distinguished from 0 there, zero of r or not */
-        if (status == ISO_OK && !(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100)) return ISO_NUMERICAL;
-        if (status != ISO_OK || fabs(r) < 10 * error || fabs(*at - last) < 1e-12 * size_of(b, *at)) break;
+        if (!(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100)) return ISO_NUMERICAL;
+        if (fabs(r) < 10 * error || fabs(*at - last) < 1e-12 * size_of(b, *at)) break;
         const int side = r * end[0] > 0 ? 0 : 1;
         b->at[side] = *at, end[side] = r;
         if (kept == 1 - side) end[1 - side] /= 2;
         kept = 1 - side;
     }
     const double step = copysign(1e-4 * size_of(b, *at), *at);
-    if (status == ISO_OK) status = value_at(w, c, b, *at + step, false, &s, &aside, &error);
+    ISO_TRY(value_at(w, c, b, *at + step, false, &s, &aside, &error));
     *slope = (aside - r) / step;
-    return status;
+    return ISO_OK;
 }
 
 /* Goes on from the zero of the search by the secant method, with the digits that were asked for. It ends where m is
@@ -107,9 +97,9 @@ static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_se
 {
     enum { MOST = 8 };
     double at = NAN, slope = NAN, last = NAN, last_r = NAN, least = 0, r = NAN, error = NAN;
-    iso_status status = search(w, c, &b, &at, &slope);
-    for (int i = 0; i < MOST && status == ISO_OK; i++) {
-        status = value_at(w, c, &b, at, true, zero, &r, &error);
+    ISO_TRY(search(w, c, &b, &at, &slope));
+    for (int i = 0; i < MOST; i++) {
+        ISO_TRY(value_at(w, c, &b, at, true, zero, &r, &error));
         if (i > 0 && fabs(at - last) > 1e-12 * size_of(&b, at)) slope = (r - last_r) / (at - last);
         least = 4e-16 * fabs(slope) * size_of(&b, at);
         if (fabs(r) < fmax(10 * error, least)) break;
@@ -117,8 +107,8 @@ static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_se
         at -= r / slope;
     }
     *(b.by_level ? &zero->level_error : &zero->k_error) = fmax(fabs(r) + error, least) / fabs(slope);
-    zero->is_zero = status == ISO_OK;
-    return status;
+    zero->is_zero = true;
+    return ISO_OK;
 }
 
 static bool solve_zeros(iso_pool_worker *w, void *data, size_t first, size_t count)
@@ -136,16 +126,6 @@ static int by_k(const void *a, const void *b)
     return ((*one)->level > (*other)->level) - ((*one)->level < (*other)->level);
 }
 
-static bool is_bracket(const iso_separatrix_splitting *a, const iso_separatrix_splitting *b, bracket *found)
-{
-    const bool fine = a->digits > 19 || b->digits > 19, by_level = a->k == b->k;
-    *found =
-        (bracket){by_level, by_level ? a->k : a->level, {a->k, b->k}, {reduced(a, a->m), reduced(b, b->m)}, 0, fine};
-    if (by_level) found->at[0] = a->level, found->at[1] = b->level;
-    found->width = fabs(found->at[1] - found->at[0]);
-    return a->k * b->k > 0 && (by_level || a->level == b->level) && found->r[0] * found->r[1] < 0;
-}
-
 /* Between neighbours, by growing k, of the rows that are distinguished from 0. list: room for the rows. */
 static size_t find_brackets(const iso_separatrix_table *s, const iso_separatrix_splitting *list[], bracket brackets[])
 {
@@ -153,7 +133,16 @@ static size_t find_brackets(const iso_separatrix_table *s, const iso_separatrix_
     for (size_t i = 0; i < s->rows; i++)
         if (s->row[i].status == ISO_OK && s->row[i].from_zero) list[rows++] = &s->row[i];
     qsort(list, rows, sizeof *list, by_k);
-    for (size_t i = 0; i + 1 < rows; i++) count += is_bracket(list[i], list[i + 1], &brackets[count]);
+    for (size_t i = 0; i + 1 < rows; i++) {
+        const iso_separatrix_splitting *a = list[i], *b = list[i + 1];
+        const bool by_level = a->k == b->k, fine = a->digits > 19 || b->digits > 19;
+        const double from = by_level ? a->level : a->k, to = by_level ? b->level : b->k;
+        const bracket found = {by_level,        by_level ? a->k : a->level,
+                               {from, to},      {reduced(a, a->m), reduced(b, b->m)},
+                               fabs(to - from), fine};
+        if (a->k * b->k > 0 && (by_level || a->level == b->level) && found.r[0] * found.r[1] < 0)
+            brackets[count++] = found;
+    }
     return count;
 }
 
@@ -188,39 +177,32 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
     return status;
 }
 
-iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *options, iso_separatrix_table **s)
+iso_status iso_separatrix_run(iso_context *ctx, const iso_separatrix_options *o, iso_separatrix_table **s)
 {
     ISO_DEFAULT_ARITHMETIC;
     *s = NULL;
-    iso_separatrix_options o = options ? *options : iso_separatrix_defaults();
-    scan c = {.o = &o};
-    if (o.count == 0) return ISO_FAIL_ARGUMENT(ctx, "k", "splitting: there is no k");
-    ISO_TRY(iso_refuse_equal_moments(ctx, o.J, ISO_NO_SPLITTING));
-    if (o.scene) {
-        const iso_effects acting = iso_scene_acting(o.scene);
-        ISO_TRY(o.level ? iso_refuse_beyond_level(ctx, &acting, ISO_SPLITTING_IS)
-                        : iso_level_of_scene(ctx, o.scene, ISO_SPLITTING_IS, &c.level));
-    }
-    iso_separatrix_table *found = c.s = calloc(1, sizeof *found);
-    if (found) found->row = calloc(o.count, sizeof *found->row);
-    iso_status status = found && found->row ? ISO_OK : iso_context_no_memory(ctx, "%zu rows", o.count);
+    if (o->count == 0) return ISO_FAIL_ARGUMENT(ctx, "k", "splitting: there is no k");
+    iso_separatrix_table *found = calloc(1, sizeof *found);
+    scan c = {.o = o, .s = found};
+    if (found) found->row = calloc(o->count, sizeof *found->row);
+    iso_status status = found && found->row ? ISO_OK : iso_context_no_memory(ctx, "%zu rows", o->count);
     if (status == ISO_OK) {
-        found->rows = o.count;
+        found->rows = o->count;
         found->axis = found->middle = -1;
-        for (size_t i = 0; i < o.count; i++)
-            found->row[i] = (iso_separatrix_splitting){.k = o.k[i],
-                                                       .level = level_of(&c, i),
+        for (size_t i = 0; i < o->count; i++)
+            found->row[i] = (iso_separatrix_splitting){.k = o->k[i],
+                                                       .level = o->level ? o->level[i] : 0,
                                                        .status = ISO_STOPPED,
                                                        .text = "not computed",
                                                        .m = NAN,
                                                        .x = NAN};
-        status = run_pool(ctx, &c, o.count, solve_rows);
-        for (const iso_separatrix_splitting *row = found->row; row < found->row + o.count; row++) {
+        status = run_pool(ctx, &c, o->count, solve_rows);
+        for (const iso_separatrix_splitting *row = found->row; row < found->row + o->count; row++) {
             if (row->status == ISO_OK) found->axis = row->axis, found->middle = row->middle;
             found->by_level = found->by_level || row->level != found->row->level;
         }
     }
-    if (status == ISO_OK && o.zeros) status = run_zeros(ctx, &c);
+    if (status == ISO_OK) status = run_zeros(ctx, &c);
     if (status != ISO_OK && status != ISO_STOPPED) iso_separatrix_free(found), found = NULL;
     *s = found;
     return status;

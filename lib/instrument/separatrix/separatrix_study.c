@@ -4,10 +4,11 @@
 #include <string.h>
 
 #include "base/rational_impl.h"
-#include "instrument/separatrix/separatrix_study_impl.h"
+#include "instrument/separatrix/separatrix.h"
 #include "orbit/orbit_impl.h"
 #include "study/fields_impl.h"
 #include "study/level.h"
+#include "study/study_impl.h"
 
 enum { MOST = 100000 };
 
@@ -140,12 +141,14 @@ static iso_status run(iso_context *ctx, const iso_study_subject *subject, const 
     const iso_scene *scene = subject->scene;
     iso_separatrix_options how = r->how;
     double level = 0;
-    if (r->level.count == 0) ISO_TRY(iso_level_of_scene(ctx, scene, "the splitting is measured", &level));
+    const iso_effects acting = iso_scene_acting(scene);
+    if (r->level.count == 0) ISO_TRY(iso_level_of_scene(ctx, scene, ISO_SPLITTING_IS, &level));
+    ISO_TRY(iso_refuse_equal_moments(ctx, scene->params.J, ISO_NO_SPLITTING));
+    ISO_TRY(iso_refuse_beyond_level(ctx, &acting, ISO_SPLITTING_IS));
     how.count = r->level.count > 1 ? r->level.count : r->k.count > 1 ? r->k.count : 1;
     double *k = repeated(&r->k, scene->params.k, how.count), *levels = repeated(&r->level, level, how.count);
     how.k = k, how.level = levels;
     for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
-    how.scene = scene;
     how.progress = result->sink.progress;
     how.data = result->sink.data;
     const iso_status status =

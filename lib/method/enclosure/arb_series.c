@@ -74,17 +74,6 @@ static slong bits_of(const iso_series *s, int n)
     return s->bits - (fewer > 0 ? fewer : 0);
 }
 
-/* Coefficient n of a/b = c: (a_n - sum_(i > 0) b_i c_(n - i))/b_0. */
-static void expand_quotient(iso_series *s, const iso_tape_node *node, int n, slong bits, arb_ptr c)
-{
-    arb_srcptr a = s->series[node->a], b = s->series[node->b];
-    if (n > 0)
-        arb_dot(c + n, a + n, 1, b + 1, 1, c + n - 1, -1, n, bits);
-    else
-        arb_set(c, a);
-    arb_div(c + n, c + n, b, bits);
-}
-
 /* Coefficient n of c = a^p: sum_(i > 0) ((p + 1) i - n) a_i c_(n - i)/(n a_0). weight: i a_i. */
 static void expand_power(iso_series *s, const iso_tape_node *node, int n, slong bits, arb_ptr c)
 {
@@ -108,6 +97,7 @@ static void expand_power(iso_series *s, const iso_tape_node *node, int n, slong 
 static void expand_node(iso_series *s, int i, int n, slong bits)
 {
     const iso_tape_node *node = &s->f->node[i];
+    arb_srcptr a = node->a < 0 ? NULL : s->series[node->a], b = node->b < 0 ? NULL : s->series[node->b];
     arb_ptr c = s->series[i];
     switch (node->kind) {
     case ISO_TAPE_STATE: break;
@@ -115,13 +105,15 @@ static void expand_node(iso_series *s, int i, int n, slong bits)
         if (n == 0) arb_set(c, node->number);
         if (n > 0) arb_zero(c + n);
         break;
-    case ISO_TAPE_SUM: arb_add(c + n, s->series[node->a] + n, s->series[node->b] + n, bits); break;
-    case ISO_TAPE_LESS: arb_sub(c + n, s->series[node->a] + n, s->series[node->b] + n, bits); break;
-    case ISO_TAPE_SCALED: arb_mul(c + n, s->series[node->a] + n, node->number, bits); break;
-    case ISO_TAPE_PRODUCT:
-        arb_dot(c + n, NULL, 0, s->series[node->a], 1, s->series[node->b] + n, -1, n + 1, bits);
+    case ISO_TAPE_SUM: arb_add(c + n, a + n, b + n, bits); break;
+    case ISO_TAPE_LESS: arb_sub(c + n, a + n, b + n, bits); break;
+    case ISO_TAPE_SCALED: arb_mul(c + n, a + n, node->number, bits); break;
+    case ISO_TAPE_PRODUCT: arb_dot(c + n, NULL, 0, a, 1, b + n, -1, n + 1, bits); break;
+    case ISO_TAPE_QUOTIENT: /* (a_n - sum_(i > 0) b_i c_(n - i))/b_0 */
+        if (n == 0) arb_set(c, a);
+        if (n > 0) arb_dot(c + n, a + n, 1, b + 1, 1, c + n - 1, -1, n, bits);
+        arb_div(c + n, c + n, b, bits);
         break;
-    case ISO_TAPE_QUOTIENT: expand_quotient(s, node, n, bits, c); break;
     case ISO_TAPE_POWER: expand_power(s, node, n, bits, c); break;
     }
 }
@@ -209,24 +201,12 @@ static bool bound_divided(const iso_series *s, int a, int b, const mag_t factor,
     return apart;
 }
 
-static bool bound_power(const iso_series *s, const iso_tape_node *node, int c)
-{
-    mag_t factor, one;
-    mag_init(factor), mag_init(one);
-    mag_one(one);
-    arb_get_mag(factor, node->number);
-    mag_max(factor, factor, one);
-    const bool apart = arb_is_positive(s->series[node->a]) && bound_divided(s, -1, node->a, factor, c);
-    mag_clear(factor), mag_clear(one);
-    return apart;
-}
-
 static bool bound_node(const iso_series *s, int i)
 {
     const iso_tape_node *node = &s->f->node[i];
-    mag_t size;
+    mag_t size, one;
     bool apart = true;
-    mag_init(size);
+    mag_init(size), mag_init(one);
     switch (node->kind) {
     case ISO_TAPE_STATE: break;
     case ISO_TAPE_CONSTANT: mag_zero(s->tail + i); break;
@@ -241,25 +221,15 @@ static bool bound_node(const iso_series *s, int i)
         mag_one(size);
         apart = bound_divided(s, node->a, node->b, size, i);
         break;
-    case ISO_TAPE_POWER: apart = bound_power(s, node, i); break;
+    case ISO_TAPE_POWER:
+        mag_one(one);
+        arb_get_mag(size, node->number);
+        mag_max(size, size, one);
+        apart = arb_is_positive(s->series[node->a]) && bound_divided(s, -1, node->a, size, i);
+        break;
     }
-    mag_clear(size);
+    mag_clear(size), mag_clear(one);
     return apart;
-}
-
-/* next = Phi(tail) of the states; the tails of other nodes are made of those of the states on the way. */
-static bool bound_again(const iso_series *s)
-{
-    const iso_tape *f = s->f;
-    for (int i = 0; i < f->nodes; i++)
-        if (!bound_node(s, i)) return false;
-    for (int i = 0; i < f->states; i++) {
-        const int rate = f->node[f->state[i]].rate;
-        mag_add(s->next + i, s->term[rate] + s->order, s->tail + rate);
-        mag_mul(s->next + i, s->next + i, s->step);
-        mag_div_ui(s->next + i, s->next + i, (ulong)s->order + 1);
-    }
-    return true;
 }
 
 bool iso_series_bound(iso_series *s, const arb_t h)
@@ -271,7 +241,15 @@ bool iso_series_bound(iso_series *s, const arb_t h)
     sum_up(s);
     for (int i = 0; i < f->nodes; i++) mag_zero(s->tail + i);
     for (int i = 0; i < TRIES && !closed; i++) {
-        if (!bound_again(s)) return false;
+        /* next = Phi(tail) of the states; the tails of other nodes are made of those of the states on the way */
+        for (int j = 0; j < f->nodes; j++)
+            if (!bound_node(s, j)) return false;
+        for (int j = 0; j < f->states; j++) {
+            const int rate = f->node[f->state[j]].rate;
+            mag_add(s->next + j, s->term[rate] + s->order, s->tail + rate);
+            mag_mul(s->next + j, s->next + j, s->step);
+            mag_div_ui(s->next + j, s->next + j, (ulong)s->order + 1);
+        }
         closed = i > 0;
         for (int j = 0; j < f->states; j++) closed = closed && mag_cmp(s->next + j, s->tail + f->state[j]) <= 0;
         for (int j = 0; j < f->states; j++) mag_mul_2exp_si(s->tail + f->state[j], s->next + j, closed ? 0 : 1);
@@ -282,20 +260,14 @@ bool iso_series_bound(iso_series *s, const arb_t h)
 
 /* --- values ------------------------------------------------------------------------------------------------------ */
 
-/* x <- (|t|/h)^(K + 1): what is left out is at most so much of what is left out at h. */
-static void shrink(const iso_series *s, const arb_t t, mag_t x)
-{
-    arb_get_mag(x, t);
-    mag_div(x, x, s->step);
-    mag_pow_ui(x, x, (ulong)s->order + 1);
-    if (mag_cmp_2exp_si(x, 0) > 0) mag_one(x); /* rounding, at |t| = h */
-}
-
 void iso_series_at(iso_series *s, const arb_t t, int first, int count, arb_ptr to)
 {
     mag_t part, rest;
     mag_init(part), mag_init(rest);
-    shrink(s, t, part);
+    arb_get_mag(part, t); /* (|t|/h)^(K + 1): what is left out is at most so much of what is left out at h */
+    mag_div(part, part, s->step);
+    mag_pow_ui(part, part, (ulong)s->order + 1);
+    if (mag_cmp_2exp_si(part, 0) > 0) mag_one(part); /* rounding, at |t| = h */
     arb_one(s->power);
     for (int n = 1; n <= s->order && iso_monitor_goes_on(&s->monitor); n++)
         arb_mul(s->power + n, s->power + n - 1, t, s->bits + 10);

@@ -15,71 +15,23 @@ void iso_tape_clear(iso_tape *f)
     flint_free(f->state);
 }
 
-/* Arb ends the program where there is no memory; so does this. */
-static int add(iso_tape *f, iso_tape_kind kind, int a, int b)
+/* Arb ends the program where there is no memory; so does this. `number` may be that of a node: it is copied first. */
+int iso_tape_add(iso_tape *f, iso_tape_kind kind, int a, int b, const arb_struct *number)
 {
+    iso_tape_node n = {.kind = kind, .a = a, .b = b, .rate = -1};
+    n.factor = kind == ISO_TAPE_QUOTIENT || kind == ISO_TAPE_POWER;
+    arb_init(n.number);
+    if (number) arb_set(n.number, number);
     if (f->nodes == f->room) {
         f->room = 2 * f->room + 64;
         f->node = flint_realloc(f->node, (size_t)f->room * sizeof *f->node);
         f->state = flint_realloc(f->state, (size_t)f->room * sizeof *f->state);
     }
-    iso_tape_node *n = &f->node[f->nodes];
-    n->kind = kind;
-    n->a = a, n->b = b, n->rate = -1;
-    n->factor = kind == ISO_TAPE_QUOTIENT || kind == ISO_TAPE_POWER;
     if (kind == ISO_TAPE_PRODUCT || kind == ISO_TAPE_POWER) f->node[a].factor = true;
     if (kind == ISO_TAPE_PRODUCT || kind == ISO_TAPE_QUOTIENT) f->node[b].factor = true;
-    arb_init(n->number);
+    if (kind == ISO_TAPE_STATE) f->state[f->states++] = f->nodes;
+    f->node[f->nodes] = n;
     return f->nodes++;
-}
-
-static int add_number(iso_tape *f, iso_tape_kind kind, int a, const arb_t x)
-{
-    const int i = add(f, kind, a, a);
-    arb_set(f->node[i].number, x);
-    return i;
-}
-
-int iso_tape_state(iso_tape *f)
-{
-    const int i = add(f, ISO_TAPE_STATE, -1, -1);
-    f->state[f->states++] = i;
-    return i;
-}
-
-int iso_tape_constant(iso_tape *f, const arb_t x)
-{
-    return add_number(f, ISO_TAPE_CONSTANT, -1, x);
-}
-
-int iso_tape_sum(iso_tape *f, int a, int b)
-{
-    return add(f, ISO_TAPE_SUM, a, b);
-}
-
-int iso_tape_less(iso_tape *f, int a, int b)
-{
-    return add(f, ISO_TAPE_LESS, a, b);
-}
-
-int iso_tape_scaled(iso_tape *f, const arb_t factor, int a)
-{
-    return add_number(f, ISO_TAPE_SCALED, a, factor);
-}
-
-int iso_tape_product(iso_tape *f, int a, int b)
-{
-    return add(f, ISO_TAPE_PRODUCT, a, b);
-}
-
-int iso_tape_quotient(iso_tape *f, int a, int b)
-{
-    return add(f, ISO_TAPE_QUOTIENT, a, b);
-}
-
-int iso_tape_power(iso_tape *f, int a, const arb_t exponent)
-{
-    return add_number(f, ISO_TAPE_POWER, a, exponent);
 }
 
 void iso_tape_rate(iso_tape *f, int state, int rate)
@@ -133,24 +85,11 @@ static int product_of(iso_tape *f, int a, int b)
     return a < 0 || b < 0 ? -1 : iso_tape_product(f, a, b);
 }
 
-/* number v/a, where v = a^number */
-static int slope_of_power(iso_tape *f, int power)
-{
-    const int ratio = iso_tape_quotient(f, power, f->node[power].a);
-    arb_t exponent;
-    arb_init(exponent);
-    arb_set(exponent, f->node[power].number);
-    const int i = iso_tape_scaled(f, exponent, ratio);
-    arb_clear(exponent);
-    return i;
-}
-
 /* d: the derivatives of all nodes before this one. slope: of a power. */
 static int derivative_of(iso_tape *f, int i, const int d[], int slope)
 {
-    const iso_tape_node n = f->node[i]; /* its number is not used: f->node may move */
+    const iso_tape_node n = f->node[i]; /* f->node may move; the number stays where its digits are */
     const int da = n.a < 0 ? -1 : d[n.a], db = n.b < 0 ? -1 : d[n.b];
-    arb_t number;
     switch (n.kind) {
     case ISO_TAPE_SUM: return sum_of(f, da, db);
     case ISO_TAPE_LESS: return less_of(f, da, db);
@@ -160,13 +99,7 @@ static int derivative_of(iso_tape *f, int i, const int d[], int slope)
         const int top = less_of(f, da, product_of(f, i, db));
         return top < 0 ? -1 : iso_tape_quotient(f, top, n.b);
     }
-    case ISO_TAPE_SCALED:
-        if (da < 0) return -1;
-        arb_init(number);
-        arb_set(number, f->node[i].number);
-        const int scaled = iso_tape_scaled(f, number, da);
-        arb_clear(number);
-        return scaled;
+    case ISO_TAPE_SCALED: return da < 0 ? -1 : iso_tape_scaled(f, n.number, da);
     default: return -1;
     }
 }
@@ -182,7 +115,11 @@ void iso_tape_differentiate(iso_tape *f, int count)
         for (int j = 0; j < count; j++) d[nodes * j + f->state[i]] = iso_tape_state(f);
     for (int i = 0; i < nodes; i++) {
         if (f->node[i].kind == ISO_TAPE_STATE) continue;
-        const int slope = f->node[i].kind == ISO_TAPE_POWER ? slope_of_power(f, i) : -1;
+        int slope = -1; /* number v/a, where v = a^number */
+        if (f->node[i].kind == ISO_TAPE_POWER) {
+            const int ratio = iso_tape_quotient(f, i, f->node[i].a);
+            slope = iso_tape_scaled(f, f->node[i].number, ratio);
+        }
         for (int j = 0; j < count; j++) d[nodes * j + i] = derivative_of(f, i, d + nodes * j, slope);
     }
     for (int i = 0; i < states; i++)

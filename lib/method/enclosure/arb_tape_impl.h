@@ -50,15 +50,18 @@ typedef struct iso_tape {
 void iso_tape_init(iso_tape *f);
 void iso_tape_clear(iso_tape *f);
 
-/* Each returns the number of the new node. */
-int iso_tape_state(iso_tape *f);
-int iso_tape_constant(iso_tape *f, const arb_t x);
-int iso_tape_sum(iso_tape *f, int a, int b);
-int iso_tape_less(iso_tape *f, int a, int b);
-int iso_tape_scaled(iso_tape *f, const arb_t factor, int a);
-int iso_tape_product(iso_tape *f, int a, int b);
-int iso_tape_quotient(iso_tape *f, int a, int b);
-int iso_tape_power(iso_tape *f, int a, const arb_t exponent);
+/* A node of this kind. Returns its number. */
+int iso_tape_add(iso_tape *f, iso_tape_kind kind, int a, int b, const arb_struct *number);
+#define iso_tape_state(f) iso_tape_add(f, ISO_TAPE_STATE, -1, -1, NULL)
+#define iso_tape_constant(f, x) iso_tape_add(f, ISO_TAPE_CONSTANT, -1, -1, x)
+#define iso_tape_sum(f, a, b) iso_tape_add(f, ISO_TAPE_SUM, a, b, NULL)
+#define iso_tape_less(f, a, b) iso_tape_add(f, ISO_TAPE_LESS, a, b, NULL)
+#define iso_tape_scaled(f, factor, a) iso_tape_add(f, ISO_TAPE_SCALED, a, -1, factor)
+#define iso_tape_product(f, a, b) iso_tape_add(f, ISO_TAPE_PRODUCT, a, b, NULL)
+#define iso_tape_quotient(f, a, b) iso_tape_add(f, ISO_TAPE_QUOTIENT, a, b, NULL)
+#define iso_tape_power(f, a, exponent) iso_tape_add(f, ISO_TAPE_POWER, a, -1, exponent)
+
+/* The derivative of a state. */
 void iso_tape_rate(iso_tape *f, int state, int rate);
 
 /* Three nodes. */

@@ -1,23 +1,23 @@
-/* code_impl.h - one compilation of the method `taylor`: there is one for each kind of processor and of number. */
-#ifndef ISO_METHOD_TAYLOR_IMPL_H
-#define ISO_METHOD_TAYLOR_IMPL_H
+/* code_impl.h - what the compilations of the Taylor methods share: there is one for each kind of processor and number
+ * (variant.c). */
+#ifndef ISO_METHOD_TAYLOR_CODE_IMPL_H
+#define ISO_METHOD_TAYLOR_CODE_IMPL_H
 
 #include "method/integrator_impl.h"
 
-/* The functions of iso_method, for one compilation. `create` allocates it->data; the first member there is a pointer
- * to this struct. */
-typedef struct iso_taylor_build {
-    iso_status (*create)(iso_integrator *it);
-    iso_status (*start)(iso_integrator *it);
-    iso_status (*step)(iso_integrator *it, double y[], double *h);
-    iso_status (*dense)(iso_integrator *it, double dt, double y[]);
-    void (*save)(const iso_integrator *it, void *to);
-    void (*recall)(iso_integrator *it, const void *from, double y[]);
-} iso_taylor_build;
+#define ISO_TAYLOR_ROW(name_, doc_)                                                                                  \
+    .name = name_, .doc = doc_, .family = "isoroll", .own_equations = true, .projects = true, .fixed = true
 
-extern const iso_taylor_build iso_taylor_plain, iso_taylor_avx2, iso_taylor_extended, iso_taylor_quad;
+/* `taylor` for any processor, and for x86 with AVX2 and FMA; iso_taylor_create puts one of them into it->method. */
+extern const iso_method iso_taylor_plain, iso_taylor_avx2;
+iso_status iso_taylor_create(iso_integrator *it);
+iso_suits iso_taylor_suits(const iso_model *model);
 
-/* Whether this processor can run iso_taylor_avx2, which builds for x86 have. */
-bool iso_taylor_has_avx2(void);
+#ifdef __x86_64__
+static inline bool iso_taylor_has_avx2(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+}
+#endif
 
 #endif

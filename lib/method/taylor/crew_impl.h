@@ -2,14 +2,40 @@
  * takes the next one. The crews go step by step together: their series are computed in turns (expand_together). */
 #include "base/math_impl.h"
 #include "method/integrator_impl.h"
-#include "method/taylor/claim_impl.h"
-#include "method/taylor/doubles_impl.h"
+#include "method/taylor/crossing_impl.h"
 #include "method/taylor/lanes_impl.h"
 
 enum {
     CREWS = CHANNELS > 1 ? 1 : 2, /* the coefficients of two with deviations do not fit the fast memory */
     MOST_PARTS = 4096             /* of a step, in the search for crossings */
 };
+
+/* Times are doubles, whatever the numbers of the series. */
+typedef double doubles __attribute__((vector_size(LANES * sizeof(double))));
+typedef __typeof__((doubles){0} < (doubles){0}) double_mask;
+
+static inline doubles doubles_of(real a)
+{
+#if LANES == 1
+    return (doubles){(double)a};
+#else
+    return __builtin_convertvector(a, doubles);
+#endif
+}
+
+static inline doubles size_of(doubles a)
+{
+    return (doubles)((double_mask)a & ~(double_mask)(-0.0 - (doubles){0}));
+}
+
+static inline bool holds_somewhere(double_mask m)
+{
+#if LANES == 1
+    return m[0] != 0;
+#else
+    return any(m);
+#endif
+}
 
 /* The jobs that no lane has taken yet. */
 typedef struct queue {
@@ -51,11 +77,6 @@ typedef struct saved_lane {
     NUMBER now[CHANNELS][sizeof(state) / sizeof(real)], scale[CHANNELS];
 } saved_lane;
 
-static state *channel_now(crew *c, int channel)
-{
-    return channel == 0 ? &c->T.now : &c->T.deviation[channel];
-}
-
 static void save(crew *c, int lane)
 {
     const iso_lane_job *job = c->job[lane];
@@ -63,7 +84,7 @@ static void save(crew *c, int lane)
     if (!s) return;
     *s = (saved_lane){true, {c->head[lane], c->tail[lane]}, c->seen[lane], c->since[lane], {{0}}, {0}};
     for (int i = 0; i < CHANNELS; i++) {
-        const real *now = (const real *)channel_now(c, i);
+        const real *now = (const real *)&c->T.channel[i];
         for (size_t j = 0; j < sizeof(state) / sizeof(real); j++) s->now[i][j] = LANE(now[j], lane);
         s->scale[i] = LANE(c->T.scale[i], lane);
     }
@@ -76,7 +97,7 @@ static bool recall(crew *c, int lane)
     c->head[lane] = s->left.head, c->tail[lane] = s->left.tail;
     c->known[lane] = s->known, c->since[lane] = s->since;
     for (int i = 0; i < CHANNELS; i++) {
-        real *now = (real *)channel_now(c, i);
+        real *now = (real *)&c->T.channel[i];
         for (size_t j = 0; j < sizeof(state) / sizeof(real); j++) LANE(now[j], lane) = s->now[i][j];
         LANE(c->T.scale[i], lane) = s->scale[i];
     }
@@ -175,28 +196,20 @@ static void store_crossings(crew *c, real x, const bool due[])
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-/* Which lanes have their next row within the step of dt. *target: the time from the step's left end to the row; 0 in
- * other lanes. */
-static bool rows_are_due(const crew *c, real dt, bool due[LANES], real *target)
-{
-    const doubles ahead = (c->row - c->head) - c->tail, step = doubles_of(dt), forwards = doubles_of(c->direction);
-    const double_mask found = forwards * ahead <= forwards * step;
-    if (!holds_somewhere(found)) return false;
-    real to = zero;
-    for (int i = 0; i < LANES; i++) {
-        due[i] = found[i] != 0;
-        LANE(to, i) = due[i] ? ahead[i] : 0;
-    }
-    *target = to;
-    return true;
-}
-
 /* Stores all rows within the step. Each pass takes the next row of every lane that has one. */
 static void find_rows(crew *c, real length, real dt)
 {
-    bool due[LANES];
-    real target = zero;
-    while (rows_are_due(c, dt, due, &target)) {
+    const doubles step = doubles_of(dt), forwards = doubles_of(c->direction);
+    for (;;) {
+        const doubles ahead = (c->row - c->head) - c->tail; /* from the step's left end to the row */
+        const double_mask found = forwards * ahead <= forwards * step;
+        if (!holds_somewhere(found)) return;
+        bool due[LANES];
+        real target = zero;
+        for (int i = 0; i < LANES; i++) {
+            due[i] = found[i] != 0;
+            LANE(target, i) = due[i] ? ahead[i] : 0;
+        }
         const real guess = choose(dt == zero, zero, length * (target / dt)); /* dt 0: it ended where it begins */
         store_events(c, solve_for_time(&c->T, target, guess), NULL, due);
         for (int i = 0; i < LANES; i++)
@@ -205,20 +218,6 @@ static void find_rows(crew *c, real length, real dt)
 }
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
-
-/* The number of parts of each lane's step, so that n_axis has at most one zero in each part. Returns the largest
- * one. */
-static int find_parts(const crew *c, real length, real *parts)
-{
-    int most = 1;
-    *parts = broadcast(1);
-    for (int i = 0; i < LANES; i++) {
-        const double own = ceil(fabs((double)(LANE(length, i) * LANE(c->zeros, i))));
-        if (c->job[i] && own > 1) LANE(*parts, i) = own < MOST_PARTS ? own : MOST_PARTS;
-        if (LANE(*parts, i) > most) most = (int)LANE(*parts, i);
-    }
-    return most;
-}
 
 /* Stores the crossings of lanes in one part of the step, which ends at b. */
 static void cross_part(crew *c, real x, const bool crosses[])
@@ -238,16 +237,20 @@ static void cross_part(crew *c, real x, const bool crosses[])
 static void find_crossings(crew *c, real length)
 {
     const form *T = &c->T;
-    real parts;
-    const int most = find_parts(c, length, &parts);
-    for (int i = 0; i < LANES; i++) c->seen[i] = 0;
+    real parts = broadcast(1); /* of each lane's step, so that n_axis has at most one zero in each */
+    int most = 1;
     real a = zero, at_a = T->now.n[c->axis];
-    for (int i = 0; i < LANES; i++)
+    for (int i = 0; i < LANES; i++) {
+        const double own = ceil(fabs((double)(LANE(length, i) * LANE(c->zeros, i))));
+        if (c->job[i] && own > 1) LANE(parts, i) = own < MOST_PARTS ? own : MOST_PARTS;
+        if (LANE(parts, i) > most) most = (int)LANE(parts, i);
+        c->seen[i] = 0;
         if (c->job[i] && c->job[i]->on_section && c->head[i] == 0) LANE(at_a, i) = 0;
+    }
     for (int part = 1; part <= most; part++) {
         const mask last = parts <= broadcast((NUMBER)part);
         const real b = choose(last, length, length * ((NUMBER)part / parts));
-        const real inside = part < most ? component(T, c->axis, b) : zero;
+        const real inside = part < most ? component(T, c->axis, b, NULL) : zero;
         const real at_b = choose(last, c->after.n[c->axis], inside);
         const mask passes = both(at_a < zero, at_b >= zero);
         if (any(passes)) {
@@ -264,18 +267,9 @@ static void find_crossings(crew *c, real length)
 
 /* --- steps ------------------------------------------------------------------------------------------------------ */
 
-/* Why the lane's ball turns ever faster from here on; NULL: it does not. */
-static const char *find_growth(crew *c, int lane)
-{
-    double y[ISO_MAX_STATE];
-    if (!(c->speed[lane] > c->fast[lane])) return NULL;
-    store(&c->T, lane, &c->after, y);
-    return iso_model_speeds_up(c->job[lane]->model, (int)LANE(c->direction, lane), c->job[lane]->start, y);
-}
-
 /* Ends the job of a lane that could not take its step of dt in the model's clock and of x in the variable of the
  * series. before: the time at its beginning. */
-static void judge(crew *c, int lane, double before, double dt, double x)
+static void end_failed(crew *c, int lane, double before, double dt, double x)
 {
     iso_lane_job *job = c->job[lane];
     if (!job || job->error || job->done == job->rows) return;
@@ -290,8 +284,11 @@ static void judge(crew *c, int lane, double before, double dt, double x)
         error = "the orbit lies in the section and does not cross it";
     else if (c->crossings && fabs(x) * job->zeros > MOST_PARTS)
         error = "crossings can lie too close together to be told apart";
-    else
-        error = find_growth(c, lane);
+    else if (c->speed[lane] > c->fast[lane]) {
+        double y[ISO_MAX_STATE];
+        store(&c->T, lane, &c->after, y);
+        error = iso_model_speeds_up(job->model, (int)LANE(c->direction, lane), job->start, y);
+    }
     job->last = isfinite(dt) ? c->head[lane] : before;
     if (error) end_job(c, lane, error);
 }
@@ -313,42 +310,34 @@ static void move_on(crew *c, real dt, real x)
     const double_mask good = (size_of(step) < INFINITY) & (size_of(step) > 64 * DBL_EPSILON * size_of(before)) &
                              (c->steps < most) & (c->since <= c->longest) & (c->speed <= c->fast) &
                              (size_of(way * doubles_of(c->zeros)) <= MOST_PARTS);
-    for (int i = 0; holds_somewhere(~good) && i < LANES; i++) judge(c, i, before[i], step[i], way[i]);
+    for (int i = 0; holds_somewhere(~good) && i < LANES; i++) end_failed(c, i, before[i], step[i], way[i]);
 }
 
 /* The step ends where it is no answer any more, and why[lane] says why: at its beginning if it was moved too far, or
  * where the scene's claim about a torque fails. The first step may start a little off its constraints. */
 static void shorten(crew *c, real moved, real *length, real gained[], const char *why[LANES])
 {
-    const iso_model *model[LANES];
     const double most = ISO_FALSE_CORRECTION(c->options->tolerance);
     for (int i = 0; i < LANES; i++) {
-        model[i] = c->job[i] ? c->job[i]->model : NULL;
         if (!c->job[i] || c->head[i] == 0 || !((double)LANE(moved, i) > most)) continue;
         why[i] = ISO_MOVED_TOO_FAR;
         LANE(*length, i) = 0;
     }
-    if (c->claims) find_false_claims(&c->T, model, length, why);
+    const real whole = *length;
+    for (int place = 0; c->claims && place <= ISO_CLAIM_PLACES; place++) {
+        const real x = whole * ((NUMBER)place / ISO_CLAIM_PLACES);
+        find_state(&c->T, x, NULL, &c->after);
+        for (int i = 0; i < LANES; i++) {
+            double y[ISO_MAX_STATE];
+            char where[ISO_BLAME_SIZE];
+            if (!c->job[i] || why[i]) continue;
+            store(&c->T, i, &c->after, y);
+            why[i] = iso_model_false_claim(c->job[i]->model, y, where);
+            if (why[i]) LANE(*length, i) = LANE(x, i);
+        }
+    }
     integrate_clocks(&c->T, *length, gained);
     find_state(&c->T, *length, gained, &c->after);
-}
-
-static void end_shortened(crew *c, real dt, const char *const why[LANES])
-{
-    for (int i = 0; i < LANES; i++) {
-        iso_lane_job *job = c->job[i];
-        if (!job || !why[i] || job->error || job->done == job->rows) continue;
-        end_job(c, i, why[i]);
-        store(&c->T, i, &c->after, job->last_y);
-        job->last = c->head[i] + (c->tail[i] + (double)LANE(dt, i));
-    }
-}
-
-static bool busy(const crew *c)
-{
-    for (int i = 0; i < LANES; i++)
-        if (c->job[i]) return true;
-    return false;
 }
 
 static void find_fresh_deviations(crew *c)
@@ -359,17 +348,9 @@ static void find_fresh_deviations(crew *c)
     start_deviations(&c->T, c->fresh);
     for (int i = 0; i < LANES; i++) {
         for (int d = 1; d < CHANNELS && c->job[i] && c->fresh[i]; d++)
-            store_deviation(&c->T, i, &c->T.now, &c->T.deviation[d], c->job[i]->first[d - 1]);
+            store_deviation(&c->T, i, &c->T.now, &c->T.channel[d], c->job[i]->first[d - 1]);
         c->fresh[i] = false;
     }
-}
-
-/* Gives new jobs to the lanes whose job has ended. */
-static void replace_ended(crew *c)
-{
-    for (int i = 0; i < LANES; i++)
-        if (c->job[i] && (c->job[i]->done == c->job[i]->rows || c->job[i]->error)) start_next(c, i);
-    c->ended = false;
 }
 
 /* The step of a crew, when its series are there. */
@@ -382,13 +363,25 @@ static void take_step(crew *c)
     if (c->claims || too_far) shorten(c, moved, &length, gained, why);
     const real dt = gained[T->shape.clock];
     c->crossings ? find_crossings(c, length) : find_rows(c, length, dt);
-    if (c->claims || too_far) end_shortened(c, dt, why);
+    for (int i = 0; (c->claims || too_far) && i < LANES; i++) {
+        iso_lane_job *job = c->job[i];
+        if (!job || !why[i] || job->error || job->done == job->rows) continue;
+        end_job(c, i, why[i]);
+        store(T, i, &c->after, job->last_y);
+        job->last = c->head[i] + (c->tail[i] + (double)LANE(dt, i));
+    }
     for (int i = 0; c->ended && i < LANES; i++) /* the next part of an orbit begins with this step */
         if (c->job[i] && c->job[i]->done == c->job[i]->rows) save(c, i);
-    move_on(c, dt + zero_if_finite(T, &c->after), length);
+    real sum = zero; /* sum - sum: 0 in a lane whose state is finite, else NaN */
+    for (int i = 0; i < 3; i++) sum += c->after.n[i] + c->after.w[i];
+    for (int i = 0; i < T->shape.moving - ISO_STATE; i++) sum += c->after.own[i];
+    for (int i = 0; i < T->shape.clocks; i++) sum += c->after.clock[T->shape.clock_of[i]];
+    move_on(c, dt + (sum - sum), length);
     if (CHANNELS > 1) end_deviations(T, length, &c->after);
     copy_state(T, &T->now, &c->after);
-    if (c->ended) replace_ended(c);
+    for (int i = 0; c->ended && i < LANES; i++) /* new jobs for the lanes whose job has ended */
+        if (c->job[i] && (c->job[i]->done == c->job[i]->rows || c->job[i]->error)) start_next(c, i);
+    c->ended = false;
 }
 
 /* One step of the crews that have jobs. Returns their number. */
@@ -397,8 +390,11 @@ static int step_together(crew *const crews[CREWS])
     crew *at_work[CREWS];
     series *S[CREWS];
     int count = 0;
-    for (int i = 0; i < CREWS; i++)
-        if (busy(crews[i])) at_work[count] = crews[i], S[count++] = &crews[i]->T.S;
+    for (int i = 0; i < CREWS; i++) {
+        bool busy = false;
+        for (int lane = 0; lane < LANES; lane++) busy |= crews[i]->job[lane] != NULL;
+        if (busy) at_work[count] = crews[i], S[count++] = &crews[i]->T.S;
+    }
     for (int i = 0; i < count; i++) {
         find_fresh_deviations(at_work[i]);
         begin(&at_work[i]->T);
@@ -406,26 +402,6 @@ static int step_together(crew *const crews[CREWS])
     if (count > 0) expand_together(S, count);
     for (int i = 0; i < count; i++) take_step(at_work[i]);
     return count;
-}
-
-static void start_crew(crew *c, queue *jobs, const iso_lane_job *first, iso_inside *inside,
-                       const iso_lane_options *options)
-{
-    memset(c, 0, offsetof(crew, T));
-    set_shape(&c->T, first->model, inside, options->tolerance);
-    for (int i = 0; i < LANES; i++)
-        start_orbit(&c->T, i, first->model, first->start); /* a lane without a job needs numbers, too */
-    c->direction = broadcast(1);
-    c->options = options, c->jobs = jobs;
-    c->crossings = !first->time, c->axis = first->axis;
-    for (int i = 0; i < LANES; i++) start_next(c, i);
-}
-
-/* Stopped between two steps. */
-static void save_all(crew *c)
-{
-    for (int i = 0; i < LANES; i++)
-        if (c->job[i]) c->seen[i] = 0, save(c, i);
 }
 
 static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_options *options)
@@ -438,12 +414,22 @@ static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_optio
     queue waiting = {jobs, count};
     crew *crews[CREWS];
     for (int i = 0; i < CREWS; i++) {
-        crews[i] = (crew *)(room + (size_t)i * size);
-        start_crew(crews[i], &waiting, jobs[0], inside, options);
+        crew *c = crews[i] = (crew *)(room + (size_t)i * size);
+        memset(c, 0, offsetof(crew, T));
+        set_shape(&c->T, jobs[0]->model, inside, options->tolerance);
+        for (int lane = 0; lane < LANES; lane++) /* a lane without a job needs numbers, too */
+            start_orbit(&c->T, lane, jobs[0]->model, jobs[0]->start);
+        c->direction = broadcast(1);
+        c->options = options, c->jobs = &waiting;
+        c->crossings = !jobs[0]->time, c->axis = jobs[0]->axis;
+        for (int lane = 0; lane < LANES; lane++) start_next(c, lane);
     }
     bool going_on = true;
     while (going_on && step_together(crews) > 0) going_on = !options->go_on || options->go_on(options->data);
-    for (int i = 0; i < CREWS; i++) save_all(crews[i]);
+    for (int i = 0; i < CREWS * LANES; i++) { /* stopped between two steps */
+        crew *c = crews[i / LANES];
+        if (c->job[i % LANES]) c->seen[i % LANES] = 0, save(c, i % LANES);
+    }
     free(room);
     iso_inside_free(inside);
     return going_on;

@@ -1,24 +1,15 @@
 /* crossing_impl.h - where a component of the unit vector passes 0 within a step. */
 #include "method/taylor/deviations_impl.h"
 
-static inline real component(const form *T, int axis, real x)
+/* n_axis at x; *slope: its derivative there, unless NULL. */
+static inline real component(const form *T, int axis, real x, real *slope)
 {
-    const vector *n = T->S.n;
-    real p = zero;
-    for (int i = T->S.order + T->is_point; i >= 0; i--) p = p * x + AT(n[i], axis);
-    return p;
-}
-
-/* The same with its derivative. */
-static inline real component_and_slope(const form *T, int axis, real x, real *slope)
-{
-    const vector *n = T->S.n;
     real p = zero, dp = zero;
     for (int i = T->S.order + T->is_point; i >= 0; i--) {
-        dp = dp * x + p;
-        p = p * x + AT(n[i], axis);
+        if (slope) dp = dp * x + p;
+        p = p * x + AT(T->S.n[i], axis);
     }
-    *slope = dp;
+    if (slope) *slope = dp;
     return p;
 }
 
@@ -33,7 +24,7 @@ static real find_crossing(const form *T, int axis, real a, real at_a, real b, re
     mask far = crosses;
     for (int i = 0; i < 60 && any(far); i++) {
         real slope;
-        const real g = component_and_slope(T, axis, x, &slope), next = x - g / slope;
+        const real g = component(T, axis, x, &slope), next = x - g / slope;
         a = choose(g < zero, x, a);
         b = choose(g < zero, b, x);
         const mask inside = both((next - a) * (next - b) <= zero, next == next);

@@ -15,16 +15,6 @@
  */
 #include "method/taylor/restore_impl.h"
 
-static inline real inner3(const real a[], const real b[])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static inline void add_times(real a[], real factor, const real b[])
-{
-    for (int i = 0; i < 3; i++) a[i] += factor * b[i];
-}
-
 /* --- back to the constraints ------------------------------------------------------------------------------------ */
 
 /* Changes dw along w, so that (w,dw) agrees with the energy. */
@@ -45,36 +35,6 @@ static void keep_level_of_point(const form *T, const state *s, state *d)
     add_times(d->w, choose(square > zero, (wanted - inner3(s->w, d->w)) / square, zero), s->w);
 }
 
-static void keep_level_of_ball(const form *T, const state *s, state *d)
-{
-    real K[3];
-    for (int i = 0; i < 3; i++) K[i] = AT(T->S.J, i) * s->w[i];
-    const real twice = inner3(K, s->w);
-    add_times(d->w, choose(twice > zero, -inner3(K, d->w) / twice, zero), s->w);
-}
-
-/* The unit vectors among the states of effects: where they stand in `own`, and how many numbers each has. Without
- * `observers`: those that act on the motion. */
-typedef struct units {
-    int count, at[ISO_MOST_EFFECT_STATES], size[ISO_MOST_EFFECT_STATES];
-} units;
-
-static units units_of(const form *T, bool observers)
-{
-    const iso_problem *f = &T->shape.problem;
-    units u = {0};
-    for (int e = 0; T->motion.states > 0 && e < ISO_EFFECTS; e++) {
-        if (f->at[e] == 0 || (iso_effect_list[e]->observes && !observers)) continue;
-        int at = f->at[e] - ISO_STATE;
-        for (const iso_effect_state *i = iso_effect_list[e]->states; i->name; i++) {
-            if (i->there && !i->there(f)) continue;
-            if (i->kind == ISO_STATE_UNIT) u.at[u.count] = at, u.size[u.count++] = i->count;
-            at += i->count;
-        }
-    }
-    return u;
-}
-
 static inline real inner_of(const real a[], const real b[], int size)
 {
     real sum = zero;
@@ -82,22 +42,16 @@ static inline real inner_of(const real a[], const real b[], int size)
     return sum;
 }
 
-static void keep_units(const form *T, const state *s, state *d)
-{
-    const units u = units_of(T, true);
-    for (int i = 0; i < u.count; i++) {
-        const real *unit = s->own + u.at[i];
-        real *own = d->own + u.at[i];
-        const real along = inner_of(unit, own, u.size[i]);
-        for (int j = 0; j < u.size[i]; j++) own[j] -= along * unit[j];
-    }
-}
-
 static void restore_deviation(const form *T, const state *s, state *d)
 {
     const series *S = &T->S;
     add_times(d->n, -inner3(s->n, d->n), s->n);
-    keep_units(T, s, d);
+    for (int i = 0; i < T->units; i++) {
+        const real *unit = s->own + T->unit[i].at;
+        real *own = d->own + T->unit[i].at;
+        const real along = inner_of(unit, own, T->unit[i].size);
+        for (int j = 0; j < T->unit[i].size; j++) own[j] -= along * unit[j];
+    }
     const real spin = inner3(d->w, s->n) + inner3(s->w, d->n);
     if (T->is_point || T->is_point_in_t) {
         add_times(d->w, -spin, s->n);
@@ -107,25 +61,22 @@ static void restore_deviation(const form *T, const state *s, state *d)
             add_times(d->w, -inner3(s->w, d->w) / inner3(s->w, s->w), s->w);
         return;
     }
-    real u[3];
-    for (int i = 0; i < 3; i++) u[i] = AT(S->inv_J, i) * s->n[i];
+    real u[3], K[3];
+    for (int i = 0; i < 3; i++) u[i] = AT(S->inv_J, i) * s->n[i], K[i] = AT(S->J, i) * s->w[i];
     if (!T->twists) add_times(d->w, -spin / inner3(u, s->n), u);
-    if (!T->loaded) keep_level_of_ball(T, s, d);
-}
-
-static inline void rate(const vector a[], const real count[], int order, real x, real out[3])
-{
-    vector p = nought;
-    for (int n = order; n >= 1; n--) p = plus(times(x, p), times(count[n], a[n]));
-    for (int i = 0; i < 3; i++) out[i] = AT(p, i);
+    if (T->loaded) return;
+    const real twice = inner3(K, s->w);
+    add_times(d->w, choose(twice > zero, -inner3(K, d->w) / twice, zero), s->w);
 }
 
 /* --- along the flow --------------------------------------------------------------------------------------------- */
 
-static inline void second_rate(const vector a[], const real count[], int order, real x, real out[3])
+/* The first or second derivative of a vector's series at x. */
+static inline void derivative(const vector a[], const real count[], int order, int which, real x, real out[3])
 {
     vector p = nought;
-    for (int n = order; n >= 2; n--) p = plus(times(x, p), times(count[n] * count[n - 1], a[n]));
+    for (int n = order; n >= which; n--)
+        p = plus(times(x, p), times(which == 1 ? count[n] : count[n] * count[n - 1], a[n]));
     for (int i = 0; i < 3; i++) out[i] = AT(p, i);
 }
 
@@ -141,15 +92,15 @@ static void flow_at(const form *T, real x, state *f)
 {
     const series *S = &T->S;
     memset(f, 0, sizeof *f);
-    rate(S->n, S->count, S->order + T->is_point, x, f->n);
+    derivative(S->n, S->count, S->order + T->is_point, 1, x, f->n);
     if (T->is_point)
-        second_rate(S->n, S->count, S->order + 1, x, f->w);
+        derivative(S->n, S->count, S->order + 1, 2, x, f->w);
     else
-        rate(S->w, S->count, S->order, x, f->w);
+        derivative(S->w, S->count, S->order, 1, x, f->w);
     for (int i = 0; i < T->motion.states; i++) {
         const int node = T->motion.state[i].node * ROOM, at = T->motion.state[i].at - ISO_STATE;
         if (T->motion.state[i].is_vector)
-            rate(S->vector + node, S->count, S->order, x, f->own + at);
+            derivative(S->vector + node, S->count, S->order, 1, x, f->own + at);
         else
             f->own[at] = rate_of_number(S->scalar + node, S->count, S->order, x);
     }
@@ -160,8 +111,10 @@ static real inner(const form *T, const state *s, const state *a, const state *b)
 {
     const real square = T->loaded ? T->speed_square : inner3(s->w, s->w);
     real sum = inner3(a->n, b->n) + inner3(a->w, b->w) / choose(square > zero, square, broadcast(1));
-    const units u = units_of(T, false);
-    for (int i = 0; i < u.count; i++) sum += inner_of(a->own + u.at[i], b->own + u.at[i], u.size[i]);
+    for (int i = 0; i < T->units; i++) {
+        const int at = T->unit[i].at;
+        if (T->unit[i].acts) sum += inner_of(a->own + at, b->own + at, T->unit[i].size);
+    }
     return sum;
 }
 
@@ -180,43 +133,25 @@ static void scale_state(const form *T, state *a, real factor)
 
 /* --- at the start ----------------------------------------------------------------------------------------------- */
 
-/* The flow at T->now, from two coefficients of the series. */
-static void flow_now(form *T, state *flow)
-{
-    const int order = T->S.order;
-    T->S.order = 2;
-    begin(T);
-    expand(&T->S);
-    flow_at(T, zero, flow);
-    T->S.order = order;
-}
-
-/* The change of a loaded ball's energy along d, by a central difference over six points: its error is about 1e-13,
- * and 1e-12 for |k| = 0.1, where powers are steep. */
-static double change_of_energy(const form *T, int lane, const state *d)
-{
-    static const double step = 1e-3, weight[] = {3 / 4., -3 / 20., 1 / 60.};
-    double y[ISO_MAX_STATE], size, sum = 0;
-    for (int i = 0; i < 6; i++) {
-        state moved = T->now;
-        const double sign = i % 2 ? 1 : -1;
-        add_state(T, &moved, broadcast((NUMBER)(sign * (i / 2 + 1) * step)), d);
-        store(T, lane, &moved, y);
-        sum += sign * weight[i / 2] * iso_system_ball.energy(&T->model[lane]->problem, y, &size);
-    }
-    return sum / step;
-}
-
 /* Takes the change of a loaded ball's energy out of d, where the energy is kept: along w. Later on the equations keep
- * it out. */
+ * it out. The change along d is a central difference over six points: its error is about 1e-13, and 1e-12 where
+ * |k| = 0.1 and powers are steep. */
 static void start_on_level(const form *T, state *d)
 {
+    static const double step = 1e-3, weight[] = {3 / 4., -3 / 20., 1 / 60.};
     for (int lane = 0; lane < LANES; lane++) {
         const iso_problem *f = &T->model[lane]->problem;
-        double along = 0;
+        double along = 0, sum = 0, y[ISO_MAX_STATE], size;
         if (!(LANE(T->keeps_energy, lane) > 0)) continue;
         for (int i = 0; i < 3; i++) along += (double)(LANE(T->now.w[i], lane) * LANE(T->now.w[i], lane)) * f->p.J[i];
-        const double part = along > 0 ? change_of_energy(T, lane, d) / along : 0;
+        for (int i = 0; i < 6 && along > 0; i++) {
+            state moved = T->now;
+            const double sign = i % 2 ? 1 : -1;
+            add_state(T, &moved, broadcast((NUMBER)(sign * (i / 2 + 1) * step)), d);
+            store(T, lane, &moved, y);
+            sum += sign * weight[i / 2] * iso_system_ball.energy(f, y, &size);
+        }
+        const double part = along > 0 ? sum / step / along : 0;
         for (int i = 0; i < 3; i++) LANE(d->w[i], lane) -= part * LANE(T->now.w[i], lane);
     }
 }
@@ -227,9 +162,14 @@ static void find_deviations(form *T, state d[SLOTS])
 {
     const state *s = &T->now;
     const real square = inner3(s->w, s->w), speed = root(choose(square > zero, square, broadcast(1)));
+    const int order = T->S.order;
     real across[3];
     state flow;
-    flow_now(T, &flow);
+    T->S.order = 2; /* as many coefficients as the flow at T->now needs */
+    begin(T);
+    expand(&T->S);
+    flow_at(T, zero, &flow);
+    T->S.order = order;
     memset(d, 0, SLOTS * sizeof *d);
     cross_product(s->n, s->w, across);
     for (int i = 0; i < 3; i++) {
@@ -250,15 +190,14 @@ static void start_deviations(form *T, const bool fresh[LANES])
 {
     state d[SLOTS];
     find_deviations(T, d);
-    for (int c = 1; c < CHANNELS; c++) {
-        real *to = (real *)&T->deviation[c];
-        const real *from = (const real *)&d[c];
-        for (int lane = 0; lane < LANES; lane++)
-            for (size_t i = 0; fresh[lane] && i < sizeof(state) / sizeof(real); i++)
-                LANE(to[i], lane) = LANE(from[i], lane);
-        for (int lane = 0; lane < LANES; lane++)
-            if (fresh[lane]) LANE(T->scale[c], lane) = 0;
-    }
+    for (int c = 1; c < CHANNELS; c++)
+        for (int lane = 0; lane < LANES; lane++) {
+            if (!fresh[lane]) continue;
+            real *to = (real *)&T->channel[c];
+            const real *from = (const real *)&d[c];
+            for (size_t i = 0; i < sizeof(state) / sizeof(real); i++) LANE(to[i], lane) = LANE(from[i], lane);
+            LANE(T->scale[c], lane) = 0;
+        }
 }
 
 /* --- on the way ------------------------------------------------------------------------------------------------- */
@@ -275,7 +214,7 @@ static void deviation_at(const form *T, int c, real x, const state *s, state *d)
 static void end_deviations(form *T, real length, const state *s)
 {
     for (int c = 1; c < CHANNELS; c++) {
-        state *d = &T->deviation[c];
+        state *d = &T->channel[c];
         deviation_at(T, c, length, s, d);
         const real square = inner(T, s, d, d);
         const mask is_long = both(square > broadcast((NUMBER)1e16), square < broadcast((NUMBER)1e290));
@@ -313,13 +252,8 @@ static void look_at(const form *T, real x, const state *s, look *l)
 /* Stores d of a lane in the variables of the model, where the state is s. For a point M = gamma' x gamma pace(q). */
 static void store_deviation(const form *T, int lane, const state *s, const state *d, double y[])
 {
-    (void)lane;
     const series *S = &T->S;
-    for (int i = 0; i < 3; i++) {
-        y[i] = (double)LANE(d->w[i], lane);
-        y[3 + i] = (double)LANE(d->n[i], lane);
-    }
-    for (int i = ISO_STATE; i < T->shape.moving; i++) y[i] = (double)LANE(d->own[i - ISO_STATE], lane);
+    store_moving(T, lane, d, y);
     if (!T->is_point) return;
     real M[3], before[3], after[3], J_n[3];
     const real speed = pace(T, s->n);

@@ -13,6 +13,12 @@ typedef struct state {
     real own[ISO_MOST_EFFECT_STATES]; /* of effects, as in y: own[i] is y[ISO_STATE + i] */
 } state;
 
+/* A unit vector: its first number in `own`, how many it has, and whether it acts on the motion. */
+typedef struct unit_state {
+    int at, size;
+    bool acts;
+} unit_state;
+
 /* One orbit in each lane. All have the same shape: the same system, effects and clocks, and all have k = -1 or none
  * has. `own` is the variable of the series. If the model has another clock, that clock is a series in `own`. */
 typedef struct form {
@@ -33,15 +39,19 @@ typedef struct form {
     real range;                      /* how large their potential can be, at least; see iso_effects_largest  */
     real twice_energy, keeps_energy; /* of a loaded ball at the start; 1 where it is conserved, else 0       */
     real speed_square;               /* of a loaded ball: of the start, plus what the potential can give       */
+    int units;                       /* unit vectors among the states of effects */
+    unit_state unit[ISO_MOST_EFFECT_STATES];
     quadrature rule;
     int clocks; /* those that are not the own */
     iso_clock clock_of[ISO_CLOCKS];
     real rate[ISO_CLOCKS], power[ISO_CLOCKS]; /* clock' = rate base^power, base = q of a point, g of a ball */
-    state now;                                /* at the end of the last step */
-    state deviation[SLOTS];                   /* there, of channels 1, ... (deviations_impl.h), divided */
-    real scale[SLOTS];                        /* by exp(scale)                             */
-    real clock[ISO_CLOCKS];                   /* at its beginning */
-    series S;                                 /* last: its coefficients need not be cleared */
+    union {
+        state now;            /* at the end of the last step */
+        state channel[SLOTS]; /* channel 0 is `now`, the others are deviations (deviations_impl.h), divided */
+    };
+    real scale[SLOTS];      /* by exp(scale)                             */
+    real clock[ISO_CLOCKS]; /* at its beginning */
+    series S;               /* last: its coefficients need not be cleared */
 } form;
 
 /* --- the terms that a model needs ------------------------------------------------------------------------------- */
@@ -72,9 +82,19 @@ static void expand_as_point(form *T)
     if (!T->in_field) S->written = written_of(motion);
 }
 
-static void add_clock(form *T, iso_clock clock)
+static void find_units(form *T)
 {
-    if (clock != T->own) T->clock_of[T->clocks++] = clock;
+    const iso_problem *f = &T->shape.problem;
+    for (int e = 0; T->motion.states > 0 && e < ISO_EFFECTS; e++) {
+        if (f->at[e] == 0) continue; /* it has no states */
+        int at = f->at[e] - ISO_STATE;
+        for (const iso_effect_state *i = iso_effect_list[e]->states; i->name; i++) {
+            if (i->there && !i->there(f)) continue;
+            if (i->kind == ISO_STATE_UNIT)
+                T->unit[T->units++] = (unit_state){at, i->count, !iso_effect_list[e]->observes};
+            at += i->count;
+        }
+    }
 }
 
 /* The order that takes the least work for a tolerance: 6 to 28 in doubles. Measured: an order that is 4 higher or
@@ -110,39 +130,26 @@ static void set_shape(form *T, const iso_model *m, iso_inside *inside, double to
         set_recurrences(S, 1, (recurrences){{point_p}});
     else
         T->is_point ? expand_as_point(T) : expand_as_ball(T);
+    find_units(T);
     S->order = order_for(T);
     T->own = T->is_point && !T->in_t ? ISO_CLOCK_S : ISO_CLOCK_T;
-    add_clock(T, m->clock);
-    for (int i = 0; i < m->clocks; i++) add_clock(T, m->clock_of[i]);
+    for (int i = -1; i < m->clocks; i++) {
+        const iso_clock clock = i < 0 ? m->clock : m->clock_of[i];
+        if (clock != T->own) T->clock_of[T->clocks++] = clock;
+    }
     if (T->clocks > 0) make_rule(&T->rule);
 }
 
 /* --- the numbers of one orbit ----------------------------------------------------------------------------------- */
 
-/* clock' = rate base^power, by iso_clock_rate: q = base for a point, 1/base for a ball */
-static void set_clock(form *T, int lane, const iso_params *p, iso_clock clock, NUMBER factor)
-{
-    double e, e_own;
-    (void)lane; /* not used where there is only one lane */
-    iso_clock_rate(p, clock, 1, &e);
-    iso_clock_rate(p, T->own, 1, &e_own);
-    LANE(T->rate[clock], lane) = (clock == ISO_CLOCK_S ? 1 / factor : 1) * (T->own == ISO_CLOCK_S ? factor : 1);
-    LANE(T->power[clock], lane) = T->is_point || T->is_point_in_t ? e - e_own : e_own - e;
-}
-
 static void set_numbers(form *T, int lane, const iso_model *m)
 {
     const iso_problem *f = &m->problem;
     series *S = &T->S;
-    if (!S->formula) {
-        set_ball(S, lane, &f->p, NULL);
-    } else if (T->is_point) {
-        set_ball(S, lane, &f->p, &f->energy_formula);
-    } else {
-        iso_formula motion; /* the same lines as the shape's, with the numbers of this orbit */
-        iso_effects_record_motion(f, true, &motion);
-        set_ball(S, lane, &f->p, &motion);
-    }
+    const bool as_ball = S->formula && !T->is_point;
+    iso_formula motion; /* the same lines as the shape's, with the numbers of this orbit */
+    if (as_ball) iso_effects_record_motion(f, true, &motion);
+    set_ball(S, lane, &f->p, as_ball ? &motion : S->formula ? &f->energy_formula : NULL);
     const NUMBER k = f->p.k, eps = f->eps, J[3] = {f->p.J[0], f->p.J[1], f->p.J[2]};
     const NUMBER factor = J[0] * J[1] * J[2] / (k * k);
     LANE(S->energy, lane) = f->energy;
@@ -153,7 +160,14 @@ static void set_numbers(form *T, int lane, const iso_model *m)
         LANE(S->alpha, lane) = 1 / ROOT(J[0] * J[1] * J[2]), LANE(S->coupling, lane) = 2 * eps / factor;
     for (int i = 0; i < 3; i++)
         if (T->is_neumann) LANE(AT(S->neumann_c, i), lane) = 2 * eps / k * J[i] + 2 * f->energy;
-    for (int i = 0; i < T->clocks; i++) set_clock(T, lane, &f->p, T->clock_of[i], factor);
+    for (int i = 0; i < T->clocks; i++) { /* clock' = rate base^power: q = base for a point, 1/base for a ball */
+        const iso_clock clock = T->clock_of[i];
+        double e, e_own;
+        iso_clock_rate(&f->p, clock, 1, &e);
+        iso_clock_rate(&f->p, T->own, 1, &e_own);
+        LANE(T->rate[clock], lane) = (clock == ISO_CLOCK_S ? 1 / factor : 1) * (T->own == ISO_CLOCK_S ? factor : 1);
+        LANE(T->power[clock], lane) = T->is_point || T->is_point_in_t ? e - e_own : e_own - e;
+    }
     if (f->energy_formula.lines > 0) set_constants(&f->energy_formula, &f->p, lane, T->c);
 }
 
@@ -207,25 +221,37 @@ static vector packed(const real a[3])
     return v;
 }
 
-/* Coefficients 0 of a channel from a state. The point's gamma' becomes coefficient 1 of gamma. */
-static void begin_channel(form *T, int c, const state *s)
-{
-    series *S = &T->S;
-    S->n[place(c, 0)] = packed(s->n);
-    *(T->is_point ? &S->n[place(c, 1)] : &S->w[place(c, 0)]) = packed(s->w);
-    for (int i = 0; i < T->motion.states; i++) {
-        const int at = T->motion.state[i].at - ISO_STATE, first = T->motion.state[i].node * ROOM + place(c, 0);
-        if (T->motion.state[i].is_vector)
-            S->vector[first] = packed(s->own + at);
-        else
-            S->scalar[first] = s->own[at];
-    }
-}
-
-/* Coefficients 0 from T->now, and of the deviations. */
+/* Coefficients 0 of all channels. The point's gamma' becomes coefficient 1 of gamma. */
 static inline void begin(form *T)
 {
-    begin_channel(T, 0, &T->now);
-    for (int c = 1; c < CHANNELS; c++) begin_channel(T, c, &T->deviation[c]);
+    series *S = &T->S;
+    for (int c = 0; c < CHANNELS; c++) {
+        const state *s = &T->channel[c];
+        S->n[place(c, 0)] = packed(s->n);
+        *(T->is_point ? &S->n[place(c, 1)] : &S->w[place(c, 0)]) = packed(s->w);
+        for (int i = 0; i < T->motion.states; i++) {
+            const int at = T->motion.state[i].at - ISO_STATE, first = T->motion.state[i].node * ROOM + place(c, 0);
+            if (T->motion.state[i].is_vector)
+                S->vector[first] = packed(s->own + at);
+            else
+                S->scalar[first] = s->own[at];
+        }
+    }
     memcpy(T->clock, T->now.clock, sizeof T->clock);
+}
+
+static inline real inner3(const real a[], const real b[])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* a += factor b */
+static inline void add_times(real a[], real factor, const real b[])
+{
+    for (int i = 0; i < 3; i++) a[i] += factor * b[i];
+}
+
+static inline double length3(const double a[3])
+{
+    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }

@@ -17,11 +17,6 @@ typedef struct walk {
     double h;
 } walk;
 
-static double size_of_three(const double a[3])
-{
-    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-}
-
 static void read_series(walk *k)
 {
     const form *T = k->T;
@@ -34,8 +29,8 @@ static void read_series(walk *k)
     double power = 1;
     k->bend_n = k->bend_w = 0;
     for (int n = 2; n <= T->S.order; n++, power *= k->h) {
-        k->bend_n += n * (n - 1) * size_of_three(k->n[n]) * power;
-        k->bend_w += n * (n - 1) * size_of_three(k->w[n]) * power;
+        k->bend_n += n * (n - 1) * length3(k->n[n]) * power;
+        k->bend_w += n * (n - 1) * length3(k->w[n]) * power;
     }
 }
 
@@ -68,52 +63,38 @@ static double variation_between(const walk *k, double a, double b)
     place_at(k, x, y);
     slope_of(k->n, T->S.order, x, dn);
     slope_of(k->w, T->S.order, x, dw);
-    const double omega = half * (size_of_three(dw) + k->bend_w * half);
+    const double omega = half * (length3(dw) + k->bend_w * half);
     const iso_stretch stretch = {.y = y,
-                                 .n = half * (size_of_three(dn) + k->bend_n * half),
+                                 .n = half * (length3(dn) + k->bend_n * half),
                                  .omega = omega,
-                                 .e = half * (size_of_three(y) + omega),
+                                 .e = half * (length3(y) + omega),
                                  .time = k->h};
     return iso_inside_variation(T->inside, T->model[k->lane], &stretch, T->tolerance / 10);
 }
 
-/* How far omega' or M' of the series at x is from that of the equations. *rounding: how much of this may be rounding:
- * the equations are computed again for a state that differs in its last digits. */
-static double defect_at(const walk *k, double x, double *speed, double *rounding)
+/* Whether omega' or M' of the series at x is that of the equations. At the right end of a step the last term alone is
+ * `tolerance`, and its derivative `order` times as large. How much may be rounding is seen from the equations for a
+ * state that differs in its last digits. */
+static bool follows_at(const walk *k, double x)
 {
     enum { DIGITS = 16 };
-    const iso_model *m = k->T->model[k->lane];
+    const form *T = k->T;
+    const iso_model *m = T->model[k->lane];
     double y[ISO_MAX_STATE], dy[ISO_MAX_STATE], moved[ISO_MAX_STATE], dy_moved[ISO_MAX_STATE];
     double slope[3], turned[3], off[3], change[3];
     place_at(k, x, y);
     m->own_rhs(m, y, dy);
-    slope_of(k->w, k->T->S.order, x, slope);
+    slope_of(k->w, T->S.order, x, slope);
     memcpy(turned, slope, sizeof turned);
-    if (k->T->is_point) /* M = gamma' x gamma, M' = gamma'' x gamma */
+    if (T->is_point) /* M = gamma' x gamma, M' = gamma'' x gamma */
         for (int i = 0; i < 3; i++)
             turned[i] = slope[(i + 1) % 3] * y[3 + (i + 2) % 3] - slope[(i + 2) % 3] * y[3 + (i + 1) % 3];
     for (int i = 0; i < m->moving; i++) moved[i] = y[i] * (1 + (i % 2 == 0 ? DIGITS : -DIGITS) * DBL_EPSILON);
-    for (int i = 0; i < 3; i++) off[i] = turned[i] - dy[i];
     m->own_rhs(m, moved, dy_moved);
-    for (int i = 0; i < 3; i++) change[i] = dy_moved[i] - dy[i];
-    *speed = size_of_three(y);
-    *rounding = 4 * size_of_three(change) + 64 * DBL_EPSILON * (size_of_three(turned) + *speed / k->h);
-    return size_of_three(off);
-}
-
-/* Whether the series follows the equations at x. At the right end of a step the last term alone is `tolerance`, and its
- * derivative `order` times as large. */
-static bool follows_at(const walk *k, double x)
-{
-    double speed, rounding;
-    const double defect = defect_at(k, x, &speed, &rounding);
-    return defect <= 4 * k->T->S.order * k->T->tolerance * speed / k->h + rounding;
-}
-
-static bool follows(const walk *k, double a, double b, double variation)
-{
-    const bool between = variation == 0 || (follows_at(k, a + 0.3 * (b - a)) && follows_at(k, a + 0.7 * (b - a)));
-    return between && follows_at(k, b);
+    for (int i = 0; i < 3; i++) off[i] = turned[i] - dy[i], change[i] = dy_moved[i] - dy[i];
+    const double speed = length3(y);
+    const double rounding = 4 * length3(change) + 64 * DBL_EPSILON * (length3(turned) + speed / k->h);
+    return length3(off) <= 4 * T->S.order * T->tolerance * speed / k->h + rounding;
 }
 
 /* How much of a step of length h is right, at most all of it. Where a part fails it is halved, down to an eighth of the
@@ -126,9 +107,11 @@ static double walk_through(const form *T, int lane, double direction, double h)
     if (!(h < INFINITY)) return h;
     read_series(&k);
     for (int i = 0; i < MOST_PARTS_WALKED && passed < h; i++) {
-        const double next = fmin(passed + part, h);
-        const double variation = variation_between(&k, direction * passed, direction * next);
-        if (variation <= 1 && follows(&k, direction * passed, direction * next, variation)) {
+        const double next = fmin(passed + part, h), a = direction * passed, b = direction * next;
+        const double variation = variation_between(&k, a, b);
+        const bool between = variation == 0 || (variation <= 1 && follows_at(&k, a + 0.3 * (b - a)) &&
+                                                follows_at(&k, a + 0.7 * (b - a)));
+        if (between && follows_at(&k, b)) {
             passed = next;
             part *= 2;
             continue;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "method/methods_impl.h"
+#include "method/taylor/code_impl.h"
 #include "method/taylor/tail_impl.h"
 #include "model/formula/formula_lines_impl.h"
 #include "model/model_impl.h"
@@ -37,7 +38,7 @@ const iso_lane_build *iso_lane_build_find(const char *name, bool deviations)
 const iso_tail_build *iso_tail_build_find(void)
 {
 #ifdef ISO_TAYLOR_X86
-    if (iso_tail_avx2.runs_here()) return &iso_tail_avx2;
+    if (iso_taylor_has_avx2()) return &iso_tail_avx2;
 #endif
     return &iso_tail_plain;
 }

@@ -11,72 +11,17 @@
  * recurrences (model/series), integrals of clocks (quadrature), what a model is expanded as (form), steps (step),
  * what is restored (restore); and around them one orbit (single), or many side by side (crew, for batches).
  */
-#include <stdlib.h>
-
 #include "method/methods_impl.h"
 #include "method/taylor/code_impl.h"
 #include "model/model_impl.h"
 
-static const iso_taylor_build *code_of(const iso_integrator *it)
+iso_status iso_taylor_create(iso_integrator *it)
 {
-    return *(const iso_taylor_build *const *)it->data;
-}
-
-static iso_status create_with(iso_integrator *it, const iso_taylor_build *code)
-{
-    const iso_status status = code->create(it);
-    if (status == ISO_OK) *(const iso_taylor_build **)it->data = code;
-    return status;
-}
-
-static iso_status create(iso_integrator *it)
-{
+    it->method = &iso_taylor_plain;
 #ifdef ISO_TAYLOR_X86
-    if (iso_taylor_has_avx2()) return create_with(it, &iso_taylor_avx2);
+    if (iso_taylor_has_avx2()) it->method = &iso_taylor_avx2;
 #endif
-    return create_with(it, &iso_taylor_plain);
-}
-
-static iso_status create_extended(iso_integrator *it)
-{
-    return create_with(it, &iso_taylor_extended);
-}
-
-#ifdef ISO_TAYLOR_HAS_QUAD
-static iso_status create_quad(iso_integrator *it)
-{
-    return create_with(it, &iso_taylor_quad);
-}
-#endif
-
-static iso_status start(iso_integrator *it)
-{
-    return code_of(it)->start(it);
-}
-
-static iso_status step(iso_integrator *it, double y[], double *h)
-{
-    return code_of(it)->step(it, y, h);
-}
-
-static iso_status dense(iso_integrator *it, double dt, double y[])
-{
-    return code_of(it)->dense(it, dt, y);
-}
-
-static void save(const iso_integrator *it, void *to)
-{
-    code_of(it)->save(it, to);
-}
-
-static void recall(iso_integrator *it, const void *from, double y[])
-{
-    code_of(it)->recall(it, from, y);
-}
-
-static void release(iso_integrator *it)
-{
-    free(it->data);
+    return it->method->create(it);
 }
 
 /* Series need the least time for every error, to within 1.2 times; of the other methods rk8pd does. Milliseconds for
@@ -89,31 +34,8 @@ static void release(iso_integrator *it)
  *
  * At 1e-4 and looser, splittings are up to 1.5 times cheaper, but do not keep to their tolerance. Series do not suit
  * stiff models, nor powers of q in (24) that span many decades. */
-static iso_suits suits(const iso_model *m)
+iso_suits iso_taylor_suits(const iso_model *m)
 {
     const bool steep = m->system == &iso_system_point && iso_params_steep(&m->problem.p);
     return steep || iso_effects_stiffness(&m->problem) > ISO_STIFF ? ISO_IF_NEED_BE : ISO_BEST;
 }
-
-#define TAYLOR                                                                                                       \
-    .family = "isoroll", .own_equations = true, .projects = true, .fixed = true, .start = start, .step = step,       \
-    .dense = dense, .save = save, .recall = recall, .free = release
-
-const iso_method iso_method_taylor = {.name = "taylor",
-                                      .doc = "Taylor series by recurrences, order 6-28 from the tolerance",
-                                      .suits = suits,
-                                      .create = create,
-                                      TAYLOR};
-const iso_method iso_method_taylor_extended = {.name = "taylor_extended",
-                                               .doc = "the same in long double, a reference for the others",
-                                               .digits = 19,
-                                               .create = create_extended,
-                                               TAYLOR};
-#ifdef ISO_TAYLOR_HAS_QUAD
-const iso_method iso_method_taylor_quad = {.name = "taylor_quad",
-                                           .doc = "the same in numbers of 128 bits, slow",
-                                           .digits = 34,
-                                           .reference = true,
-                                           .create = create_quad,
-                                           TAYLOR};
-#endif

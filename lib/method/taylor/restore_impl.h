@@ -139,7 +139,7 @@ static void second_of_ball(const form *T, const state *s, second_integral *F)
     if (T->second_of == PLANE) {
         cross_product_exactly(K, s->n, F->a);
         cross_product(change, s->n, F->b);
-        F->slope = 2 * (F->a[0] * F->b[0] + F->a[1] * F->b[1] + F->a[2] * F->b[2]);
+        F->slope = 2 * inner3(F->a, F->b);
         memcpy(F->b, F->a, sizeof F->b);
         return;
     }
@@ -179,23 +179,14 @@ static void restore_second(const form *T, state *s)
 static real restore_point(const form *T, state *s)
 {
     real worst = restore_length(s->n, 3, broadcast(1), everywhere());
-    const real along = defect_of(s->n, s->w, 3, zero);
-    for (int i = 0; i < 3; i++) s->w[i] -= along * s->n[i];
+    add_times(s->w, -defect_of(s->n, s->w, 3, zero), s->n);
+    if (T->is_point_in_t) return worst + restore_length(s->w, 3, T->S.coupling, T->S.coupling > zero);
     real terms;
-    const real square = square_of_speed(T, s, &terms);
-    const real now = s->w[0] * s->w[0] + s->w[1] * s->w[1] + s->w[2] * s->w[2];
+    const real square = square_of_speed(T, s, &terms), now = inner3(s->w, s->w);
     const mask fast = both(now > square / 2, now > (NUMBER)0.1 * terms); /* else rounding errors would grow */
     worst += restore_length(s->w, 3, square, both(square > zero, fast));
     if (T->second_of) restore_second(T, s);
     return worst;
-}
-
-static real restore_point_t(const form *T, state *s)
-{
-    const real worst = restore_length(s->n, 3, broadcast(1), everywhere());
-    const real along = defect_of(s->n, s->w, 3, zero), square = T->S.coupling;
-    for (int i = 0; i < 3; i++) s->w[i] -= along * s->n[i];
-    return worst + restore_length(s->w, 3, square, square > zero);
 }
 
 /* Twice the energy of a loaded ball, as sum_i a_i b_i. `sum` is its rounded value, `kinetic` the part of the motion.
@@ -263,32 +254,15 @@ static real restore_ball(const form *T, state *s)
     return worst + magnitude(part);
 }
 
-/* The unit vectors among the states of effects. */
-static real restore_unit_states(const form *T, state *s)
-{
-    const iso_problem *f = &T->shape.problem;
-    real worst = zero;
-    for (int e = 0; e < ISO_EFFECTS; e++) {
-        if (f->at[e] == 0) continue; /* it has no states */
-        real *own = s->own + (f->at[e] - ISO_STATE);
-        for (const iso_effect_state *i = iso_effect_list[e]->states; i->name; i++) {
-            if (i->there && !i->there(f)) continue;
-            if (i->kind == ISO_STATE_UNIT) worst += restore_length(own, i->count, broadcast(1), everywhere());
-            own += i->count;
-        }
-    }
-    return worst;
-}
-
 /* Brings a state back to its constraints and integrals. Returns the relative size of the corrections. Unit vectors
  * come first: the energy depends on the vertical. */
 static real restore(const form *T, state *s)
 {
-    if (T->unprojected && !T->is_point) return zero; /* off them a point's equations are unstable */
     real worst = zero;
-    if (T->motion.states > 0) worst += restore_unit_states(T, s);
-    if (T->is_point_in_t) return worst + restore_point_t(T, s);
-    return worst + (T->is_point ? restore_point(T, s) : restore_ball(T, s));
+    if (T->unprojected && !T->is_point) return zero; /* off them a point's equations are unstable */
+    for (int i = 0; i < T->units; i++)
+        worst += restore_length(s->own + T->unit[i].at, T->unit[i].size, broadcast(1), everywhere());
+    return worst + (T->is_point || T->is_point_in_t ? restore_point(T, s) : restore_ball(T, s));
 }
 
 /* Notes the second integral, or the energy of a loaded ball, at the start. The constraints are restored first, so

@@ -24,17 +24,16 @@ static void start_on_section(form *T, int axis, NUMBER l, NUMBER x)
 {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     const NUMBER cosine = COS(l), sine = SIN(l), flat = ROOT(1 - x * x);
-    state *s = &T->now, *by_l = &T->deviation[1], *by_x = &T->deviation[2];
+    state *s = &T->now, *by_l = &T->channel[1], *by_x = &T->channel[2];
     real terms;
-    memset(s, 0, sizeof *s);
-    memset(T->deviation, 0, sizeof T->deviation);
+    memset(T->channel, 0, sizeof T->channel);
     s->n[b] = cosine, s->n[c] = -sine;
     const NUMBER v = ROOT(square_of_speed(T, s, &terms));
     s->w[b] = -v * x * sine, s->w[c] = -v * x * cosine, s->w[axis] = v * flat;
     by_l->n[b] = -sine, by_l->n[c] = -cosine;
     by_l->w[b] = -v * x * cosine, by_l->w[c] = v * x * sine;
     by_x->w[b] = -v * sine, by_x->w[c] = -v * cosine, by_x->w[axis] = -v * x / flat;
-    for (int d = 1; d < CHANNELS; d++) restore_deviation(T, s, &T->deviation[d]);
+    for (int d = 1; d < CHANNELS; d++) restore_deviation(T, s, &T->channel[d]);
 }
 
 /* The state and its derivatives by u and c half way between two crossings (iso_return_start). */
@@ -44,10 +43,9 @@ static void start_half_way(form *T, int axis, iso_return_start start, NUMBER u)
     const int b = (axis + 1) % 3, c = (axis + 2) % 3, across = start == ISO_FROM_PLANE_C ? c : b;
     const int first = pole ? b : across == b ? c : b, second = pole ? c : axis; /* the plane in which u turns */
     const NUMBER cosine = COS(u), sine = SIN(u), sign = pole ? 1 : -1;
-    state *s = &T->now, *by_u = &T->deviation[1], *by_c = &T->deviation[2];
+    state *s = &T->now, *by_u = &T->channel[1], *by_c = &T->channel[2];
     real terms;
-    memset(s, 0, sizeof *s);
-    memset(T->deviation, 0, sizeof T->deviation);
+    memset(T->channel, 0, sizeof T->channel);
     if (pole)
         s->n[axis] = -1;
     else
@@ -62,57 +60,33 @@ static void start_half_way(form *T, int axis, iso_return_start start, NUMBER u)
         by_u->n[first] = -sine, by_u->n[second] = sign * cosine;
         by_c->w[first] = -v * sine, by_c->w[second] = sign * v * cosine;
     }
-    for (int d = 1; d < CHANNELS; d++) restore_deviation(T, s, &T->deviation[d]);
+    for (int d = 1; d < CHANNELS; d++) restore_deviation(T, s, &T->channel[d]);
 }
 
-/* -gamma and -gamma', for half a return. */
-static void turn_over(form *T)
-{
-    state *of[] = {&T->now, &T->deviation[1], &T->deviation[2]};
-    for (int d = 0; d < CHANNELS; d++)
-        for (int i = 0; i < 3; i++) of[d]->n[i] = -of[d]->n[i], of[d]->w[i] = -of[d]->w[i];
-}
-
-/* The chart at a crossing: l = atan2(-gamma_c, gamma_b), x = (gamma' x gamma)_a/|gamma'|; and its change with a
- * deviation, whose part along the flow f is taken away so that gamma_a stays 0. */
-static void chart_at(int axis, const state *s, iso_fine to[2])
-{
-    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    const NUMBER turn = s->w[b] * s->n[c] - s->w[c] * s->n[b];
-    to[0] = fine_of(ATAN2(-s->n[c], s->n[b]));
-    to[1] = fine_of(turn / ROOT(inner3(s->w, s->w)));
-}
-
-static void slope_at(int axis, const state *s, const state *f, const state *given, NUMBER *dl, NUMBER *dx)
-{
-    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    state d = *given;
-    const NUMBER along = -d.n[axis] / f->n[axis], square = inner3(s->w, s->w);
-    add_times(d.n, along, f->n);
-    add_times(d.w, along, f->w);
-    const NUMBER turn = s->w[b] * s->n[c] - s->w[c] * s->n[b];
-    const NUMBER change = d.w[b] * s->n[c] + s->w[b] * d.n[c] - d.w[c] * s->n[b] - s->w[c] * d.n[b];
-    *dl = (s->n[c] * d.n[b] - s->n[b] * d.n[c]) / (s->n[b] * s->n[b] + s->n[c] * s->n[c]);
-    *dx = (change - turn * inner3(s->w, d.w) / square) / ROOT(square);
-}
-
-/* What is known at the crossing, at x of the series. */
+/* The crossing at x of the series, in the chart: l = atan2(-gamma_c, gamma_b), x = (gamma' x gamma)_a/|gamma'|; and its
+ * change with each deviation, whose part along the flow f is taken away so that gamma_a stays 0. */
 static void arrive(const form *T, int axis, NUMBER x, NUMBER passed, iso_return *r)
 {
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    const iso_clock own = T->shape.clock;
     state s, f, d;
     NUMBER gained[ISO_CLOCKS];
     integrate_clocks(T, x, gained);
     find_state(T, x, gained, &s);
     flow_at(T, x, &f);
-    chart_at(axis, &s, r->to);
+    const NUMBER turn = s.w[b] * s.n[c] - s.w[c] * s.n[b], square = inner3(s.w, s.w);
+    r->to[0] = fine_of(ATAN2(-s.n[c], s.n[b]));
+    r->to[1] = fine_of(turn / ROOT(square));
     for (int i = 0; i < 2; i++) {
-        NUMBER dl, dx;
         deviation_at(T, i + 1, x, &s, &d);
-        slope_at(axis, &s, &f, &d, &dl, &dx);
-        r->slope[0][i] = fine_of(dl), r->slope[1][i] = fine_of(dx);
+        const NUMBER along = -d.n[axis] / f.n[axis];
+        add_times(d.n, along, f.n);
+        add_times(d.w, along, f.w);
+        const NUMBER change = d.w[b] * s.n[c] + s.w[b] * d.n[c] - d.w[c] * s.n[b] - s.w[c] * d.n[b];
+        r->slope[0][i] = fine_of((s.n[c] * d.n[b] - s.n[b] * d.n[c]) / (s.n[b] * s.n[b] + s.n[c] * s.n[c]));
+        r->slope[1][i] = fine_of((change - turn * inner3(s.w, d.w) / square) / ROOT(square));
     }
-    const iso_clock own = T->shape.clock;
-    for (int c = 0; c < ISO_CLOCKS; c++) r->clock[c] = fine_of(s.clock[c]);
+    for (int i = 0; i < ISO_CLOCKS; i++) r->clock[i] = fine_of(s.clock[i]);
     r->clock[own] = fine_of(passed + gained[own]);
 }
 
@@ -123,7 +97,7 @@ static bool cross_step(const form *T, int axis, NUMBER length, NUMBER zeros, NUM
     NUMBER a = 0, at_a = start;
     for (int part = 1; part <= parts; part++) {
         const NUMBER b = part == parts ? length : length * part / parts;
-        const NUMBER at_b = part == parts ? end : component(T, axis, b);
+        const NUMBER at_b = part == parts ? end : component(T, axis, b, NULL);
         if (at_a < 0 && at_b >= 0) return *x = find_crossing(T, axis, a, at_a, b, at_b, true), true;
         a = b, at_a = at_b;
     }
@@ -165,11 +139,11 @@ static bool expand_with_tail(series *S, tail *t)
     expand(S);
     S->order = order;
     if (!in_range(S, t->from)) return false;
-    give_rows(S, 3, 5, 0, t->from - 1, &t->rows);
-    give_rows(S, 1, 0, t->from, t->from + 1, &t->rows);
+    carry_rows(S, &t->rows, true, 3, 5, 0, t->from - 1);
+    carry_rows(S, &t->rows, true, 1, 0, t->from, t->from + 1);
     t->code->expand(t->data, t->from, &t->rows);
-    take_rows(S, 1, 0, t->from + 2, order + 1, &t->rows);
-    take_rows(S, 0, 1, t->from, order, &t->rows);
+    carry_rows(S, &t->rows, false, 1, 0, t->from + 2, order + 1);
+    carry_rows(S, &t->rows, false, 0, 1, t->from, order);
     return in_range(S, order);
 }
 
@@ -208,7 +182,7 @@ static bool go_round(form *T, tail *t, int axis, NUMBER zeros, bool on_section, 
         for (int c = 1; c < CHANNELS; c++) {
             state d;
             deviation_at(T, c, length, &after, &d);
-            T->deviation[c] = d;
+            T->channel[c] = d;
         }
         T->now = after;
         passed += gained[T->shape.clock];
@@ -230,7 +204,9 @@ static bool go(const iso_model *model, int axis, double zeros, double tolerance,
         start_on_section(T, axis, number_of(r->from[0]), number_of(r->from[1]));
     else
         start_half_way(T, axis, r->start, number_of(r->from[0]));
-    if (r->start == ISO_FROM_BELOW) turn_over(T);
+    for (int c = 0; r->start == ISO_FROM_BELOW && c < CHANNELS; c++) /* half a return, from -gamma and -gamma' */
+        for (int i = 0; i < 3; i++)
+            T->channel[c].n[i] = -T->channel[c].n[i], T->channel[c].w[i] = -T->channel[c].w[i];
     T->scale[1] = T->scale[2] = 0;
     T->second_of = NONE; /* the start is exact: nothing to restore it to */
     t->from = tail_from(T);

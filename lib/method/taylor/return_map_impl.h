@@ -34,7 +34,6 @@ typedef struct iso_return {
 } iso_return;
 
 typedef struct iso_return_build {
-    const char *name;
     double error; /* of one operation, relative */
     /* model: the free point on H = 0. zeros: see iso_lane_job. tolerance: as of other Taylor methods where their
      * numbers are doubles; it is multiplied by error/1e-16.

@@ -5,7 +5,6 @@
 #include "method/taylor/restore_impl.h"
 
 typedef struct single {
-    const iso_taylor_build *code; /* set by method.c */
     form T;
     real length; /* of the last step, in the own variable */
 } single;
@@ -78,3 +77,10 @@ static void recall(iso_integrator *it, const void *from, double y[])
     memcpy(&own->T.now, from, it->saved);
     store(&own->T, 0, &own->T.now, y);
 }
+
+static void release(iso_integrator *it)
+{
+    free(it->data);
+}
+
+#define SINGLE .start = start, .step = step, .dense = dense, .save = save, .recall = recall, .free = release

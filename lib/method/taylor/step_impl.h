@@ -42,15 +42,22 @@ static inline void copy_state(const form *T, state *to, const state *from)
     memcpy(to, from, offsetof(state, own) + (size_t)(T->shape.moving - ISO_STATE) * sizeof(real));
 }
 
-static void store(const form *T, int lane, const state *s, double y[])
+/* The numbers of a lane as they are in the form: w, n, states of effects. */
+static inline void store_moving(const form *T, int lane, const state *s, double y[])
 {
-    const iso_model *m = &T->shape;
     (void)lane;
     for (int i = 0; i < 3; i++) {
         y[i] = (double)LANE(s->w[i], lane);
         y[3 + i] = (double)LANE(s->n[i], lane);
     }
-    for (int i = ISO_STATE; i < m->moving; i++) y[i] = (double)LANE(s->own[i - ISO_STATE], lane);
+    for (int i = ISO_STATE; i < T->shape.moving; i++) y[i] = (double)LANE(s->own[i - ISO_STATE], lane);
+}
+
+/* In the variables of the model. */
+static void store(const form *T, int lane, const state *s, double y[])
+{
+    const iso_model *m = &T->shape;
+    store_moving(T, lane, s, y);
     if (T->is_point) {
         const real speed = pace(T, s->n);
         real M[3];
@@ -169,42 +176,29 @@ static inline real rough_power(real x, double part)
     return 0.97 * x;
 }
 
-static inline real rough_root(real x, int n)
-{
-    return rough_power(x, 1.0 / n);
-}
-
-/* The time in which the unit vector moves by about 1000. In units of s it can be very long: 1e15 for k = 1e6. */
-static real longest_step(const series *S)
-{
-    const real pace = larger(largest(S->n[1]), root(largest(S->n[2])));
-    return 1000 / choose(pace > broadcast((NUMBER)1e-100), pace, broadcast(1));
-}
-
-/* The longest step for the poles of 1/g. A ball that rolls in a principal plane turns evenly: its own series
- * converges for steps of any length. But a small distance from the plane follows an equation with the poles of 1/g,
- * and beyond them its series is wrong by many decades. So the terms of 1/g are kept small as well, to 3/4 of the
- * digits: this costs other orbits 2 % more steps. All digits would cost a fifth more. */
-static real for_poles(const form *T, int n)
-{
-    return rough_root(
-        T->at_poles * magnitude(T->S.pole[0]) / larger(magnitude(T->S.pole[n]), broadcast((NUMBER)1e-290)), n);
-}
-
 #include "method/taylor/inside_impl.h"
 
-/* The step for which the last three terms are as small as the tolerance, and at most the longest step. It is
- * shortened where the clocks need it. Two terms would not do: coefficients next to a pair of conjugate poles go like
- * a cosine of n, and two of them may be small by chance. */
+/* The step for which the last three terms are as small as the tolerance, and in which the unit vector moves by at most
+ * about 1000: in units of s this can be very long, 1e15 for k = 1e6. It is shortened where the clocks need it. Two
+ * terms would not do: coefficients next to a pair of conjugate poles go like a cosine of n, and two of them may be
+ * small by chance.
+ *
+ * A ball that rolls in a principal plane turns evenly: its own series converges for steps of any length. But a small
+ * distance from the plane follows an equation with the poles of 1/g, and beyond them its series is wrong by many
+ * decades. So the terms of 1/g are kept small as well, to 3/4 of the digits (at_poles): this costs other orbits 2 %
+ * more steps. All digits would cost a fifth more. */
 static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
 {
+    const series *S = &T->S;
     const real least = broadcast((NUMBER)1e-290), tolerance = broadcast(T->tolerance);
-    real h = longest_step(&T->S);
-    for (int n = T->S.order - 2; n <= T->S.order; n++) {
-        const real longest = rough_root(T->tolerance / larger(coefficient(T, n), least), n);
+    const real pace = larger(largest(S->n[1]), root(largest(S->n[2])));
+    real h = 1000 / choose(pace > broadcast((NUMBER)1e-100), pace, broadcast(1));
+    for (int n = S->order - 2; n <= S->order; n++) {
+        const real longest = rough_power(T->tolerance / larger(coefficient(T, n), least), 1.0 / n);
         h = choose(longest < h, longest, h);
         if (T->is_point || T->is_point_in_t) continue;
-        const real near = for_poles(T, n - 1);
+        const real ratio = T->at_poles * magnitude(S->pole[0]) / larger(magnitude(S->pole[n - 1]), least);
+        const real near = rough_power(ratio, 1.0 / (n - 1));
         h = choose(near < h, near, h);
     }
     if (T->inside) h = look_inside(T, direction, h);
@@ -213,7 +207,7 @@ static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
             integrate_clocks(T, direction * h, gained); /* NaN where the polynomial is no rate any more */
         const mask good = doubt <= tolerance, close = doubt < broadcast((NUMBER)1e10);
         if (i == 40 || !any(other(good))) return direction * h;
-        const real less = rough_root(tolerance / larger(doubt, least), 2 * NODES);
+        const real less = rough_power(tolerance / larger(doubt, least), 1.0 / (2 * NODES));
         h = choose(good, h, h * (NUMBER)0.9 * choose(close, less, broadcast((NUMBER)0.5)));
     }
 }

@@ -19,13 +19,13 @@ static void expand_tail(void *tail, int from, iso_tail_rows *rows)
 {
     form *T = tail;
     series *S = &T->S;
-    take_rows(S, 3, 5, 0, from - 1, rows);
-    take_rows(S, 1, 0, from, from + 1, rows);
+    carry_rows(S, rows, false, 3, 5, 0, from - 1);
+    carry_rows(S, rows, false, 1, 0, from, from + 1);
     S->over_base = 1 / S->base[0];
     for (int c = 0; c < CHANNELS; c++) point_q(S, c, from);
     for (int n = from; n < S->order; n += S->together)
         for (int i = 0; i < S->terms; i++)
             for (int c = 0; c < CHANNELS; c++) S->term[i](S, c, n);
-    give_rows(S, 1, 0, from + 2, S->order + 1, rows);
-    give_rows(S, 0, 1, from, S->order, rows);
+    carry_rows(S, rows, true, 1, 0, from + 2, S->order + 1);
+    carry_rows(S, rows, true, 0, 1, from, S->order);
 }

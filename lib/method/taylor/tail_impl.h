@@ -15,8 +15,6 @@
 #ifndef ISO_METHOD_TAYLOR_TAIL_IMPL_H
 #define ISO_METHOD_TAYLOR_TAIL_IMPL_H
 
-#include <stdbool.h>
-
 #include "model/model.h"
 
 enum { ISO_TAIL_ORDER = 52 }; /* the highest order */
@@ -28,7 +26,6 @@ typedef struct iso_tail_rows {
 } iso_tail_rows;
 
 typedef struct iso_tail_build {
-    bool (*runs_here)(void);
     void *(*create)(const iso_model *model, int order); /* for free(); NULL: no memory. A free point is wanted */
     /* Rows hold gamma up to coefficient from + 1, the others up to from - 1; here gamma gets all up to order + 1, and
      * q up to order. */

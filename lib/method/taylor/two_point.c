@@ -37,17 +37,6 @@ struct iso_two_point {
     bool declines; /* the system is neither the ball nor the point: it is followed in steps    */
 };
 
-/* c_0 = 1/2, c_j/c_(j-1) = (p-j+1) j / ((2p+2-j) (j+1)) */
-static void set_weights(iso_two_point *b)
-{
-    for (int p = 0; p <= HIGHEST; p++) {
-        b->weight[p][0] = 0.5;
-        for (int j = 1; j <= p; j++)
-            b->weight[p][j] = b->weight[p][j - 1] * (p - j + 1) * j / ((double)(2 * p + 2 - j) * (j + 1));
-        for (int j = 0; p > 0 && j <= p; j++) b->change[p][j] = b->weight[p][j] - b->weight[p - 1][j];
-    }
-}
-
 iso_status iso_two_point_create(iso_context *ctx, const iso_model *model, double tolerance, iso_two_point **two_point)
 {
     iso_inside *inside = NULL;
@@ -56,7 +45,12 @@ iso_status iso_two_point_create(iso_context *ctx, const iso_model *model, double
     b->inside = inside;
     set_shape(&b->T, model, b->inside, tolerance);
     set_numbers(&b->T, 0, model);
-    set_weights(b);
+    for (int p = 0; p <= HIGHEST; p++) { /* c_0 = 1/2, c_j/c_(j-1) = (p-j+1) j / ((2p+2-j) (j+1)) */
+        b->weight[p][0] = 0.5;
+        for (int j = 1; j <= p; j++)
+            b->weight[p][j] = b->weight[p][j - 1] * (p - j + 1) * j / ((double)(2 * p + 2 - j) * (j + 1));
+        for (int j = 0; p > 0 && j <= p; j++) b->change[p][j] = b->weight[p][j] - b->weight[p - 1][j];
+    }
     b->tolerance = tolerance;
     b->declines = model->system != &iso_system_ball && model->system != &iso_system_point;
     b->p = LEAST;
@@ -119,11 +113,6 @@ static inline double integral(const iso_two_point *b, const double power[], cons
     return sum;
 }
 
-static double length(const double a[3])
-{
-    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-}
-
 /* The gap by the coefficients up to b->p. *left: the error that is still left, divided by the error allowed. */
 static void measure(iso_two_point *b, double h, double noise, iso_gap *gap, double *left)
 {
@@ -141,13 +130,13 @@ static void measure(iso_two_point *b, double h, double noise, iso_gap *gap, doub
         if (gap->gained[clock] != gap->gained[clock]) *left = INFINITY;
     }
     for (int v = 0; v < ISO_STATE; v += 3) {
-        const double size = larger(length(f->value + v), length(g->value + v));
+        const double size = larger(length3(f->value + v), length3(g->value + v));
         for (int i = v; i < v + 3; i++) {
             const double way = integral(b, power, f->slope[0] + i, g->slope[0] + i, ISO_STATE, &last);
             gap->motion[i] = size > 0 ? (g->value[i] - f->value[i] - way) / size : 0;
             if (size > 0) *left = larger(*left, last / (of_state * size));
         }
-        gap->defect = larger(gap->defect, length(gap->motion + v));
+        gap->defect = larger(gap->defect, length3(gap->motion + v));
     }
     if (!(gap->defect < 1e100)) *left = INFINITY;
 }

@@ -3,6 +3,7 @@
 #include "task/check/check.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,6 +14,39 @@
 #include "orbit/orbit_impl.h"
 #include "study/fields_impl.h"
 #include "task/check/check_impl.h"
+
+/* --- residuals -------------------------------------------------------------------------------------------------- */
+
+/* The residual of a name; it is made if it is new. NULL: there are too many. */
+static iso_residual *residual_of(iso_residuals *r, const char *name, const char *what)
+{
+    int i = 0;
+    while (i < r->count && strcmp(r->residual[i].name, name) != 0) i++;
+    if (i == ISO_MAX_RESIDUALS) return NULL;
+    iso_residual *at = &r->residual[i];
+    if (i < r->count) return at;
+    r->count++;
+    *at = (iso_residual){.what = what};
+    snprintf(at->name, sizeof at->name, "%s", name);
+    return at;
+}
+
+void iso_checker_note(iso_residuals *found, const char *name, const char *what, double value, size_t row)
+{
+    iso_residual *at = residual_of(found, name, what);
+    if (!at || (!(fabs(value) > at->worst) && !isnan(value))) return;
+    at->worst = isnan(value) ? INFINITY : fabs(value);
+    at->row = row;
+}
+
+iso_effects iso_checker_effects(const checker *c, iso_model_kind kind)
+{
+    if (kind == ISO_BALL) return c->effects;
+    iso_effects effects = iso_effects_acting(&c->effects);
+    if (iso_record_get(c->record, "eps") || iso_record_get(c->record, "h"))
+        iso_effects_set_level(&effects, iso_effects_have_level(&effects), NAN);
+    return effects;
+}
 
 /* --- beginning -------------------------------------------------------------------------------------------------- */
 
@@ -78,6 +112,27 @@ static iso_status find_start(const checker *c, const checked_model *m, const dou
     return iso_context_fail(c->ctx, status, "", "row %zu: %s", c->number, iso_context_message(c->ctx));
 }
 
+/* The first row of an orbit gives the values, but all orbits of a file have the energy of its first row. */
+static void expect(checked_model *m, const iso_sample *first)
+{
+    m->count = iso_watch_begin(m->orbit, m->system, m->energy, first, m->integral, ISO_MAX_INTEGRALS);
+    for (int i = 0; i < m->count; i++)
+        if (m->integral[i].integral->value == m->system->energy) m->energy = m->integral[i].expected;
+}
+
+static void check_integrals(const checker *c, checked_model *m, const iso_sample *row)
+{
+    char name[sizeof m->found.residual[0].name];
+    iso_watch_follow(m->orbit, row, m->integral, m->count);
+    for (int i = 0; i < m->count; i++) {
+        const iso_drift *d = &m->integral[i];
+        snprintf(name, sizeof name, "%s %s", d->system->name, d->integral->name);
+        iso_checker_note(&m->found, name, d->integral->doc, d->now, c->number);
+    }
+}
+
+/* The orbit of the first row, and the level that H of a point should have: the one that the lines state, or 0 where the
+ * record has a ball's columns or clocks; else any. */
 static iso_status open_first(checker *c, checked_model *m, const double row[])
 {
     iso_start start;
@@ -86,32 +141,31 @@ static iso_status open_first(checker *c, checked_model *m, const double row[])
     for (int e = 0; e < ISO_EFFECTS; e++) c->effects.idle[e] = c->effects.idle[e] || effects.idle[e];
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &effects;
-    return iso_orbit_create(c->ctx, c->params, &start, &o, &m->orbit);
+    ISO_TRY(iso_orbit_create(c->ctx, c->params, &start, &o, &m->orbit));
+    const iso_units *units = iso_orbit_units(m->orbit);
+    const bool level = iso_effects_have_level(&c->effects);
+    m->on_level = level || c->columns[ISO_CLOCK_T] >= 0 || c->columns[ISO_CLOCK_TAU] >= 0 || c->model[ISO_BALL].there;
+    m->level =
+        level ? iso_coupling(&units->own, iso_effects_level(&c->effects) / iso_unit(units, iso_level_dimension()))
+              : 0;
+    m->energy = m->on_level && m->kind == ISO_POINT ? m->level : (double)NAN;
+    return ISO_OK;
 }
 
 static iso_status check_model(checker *c, checked_model *m, const double row[])
 {
     iso_start start;
+    iso_sample sample;
     iso_effects effects = iso_checker_effects(c, m->kind);
     ISO_TRY(m->orbit ? find_start(c, m, row, &start, &effects) : open_first(c, m, row));
-    if (c->begins) iso_checker_expect(c, m, row);
-    iso_checker_integrals(c, m, row);
+    iso_sample_of_row(c->columns, row, &sample);
+    if (c->begins) expect(m, &sample);
+    check_integrals(c, m, &sample);
     if (m->kind == ISO_BALL) iso_checker_beginning(c, m, row);
     if (!c->begins) return iso_checker_flow(c, m, row);
     for (int i = 0; i < ISO_STATE; i++) c->looked[m->first + i] = true;
     ISO_TRY(iso_checker_energy(c, m, row));
     return iso_checker_flow_begin(c, m, row);
-}
-
-static void check_map(checker *c, const double row[])
-{
-    double ball[ISO_STATE], point[ISO_STATE];
-    iso_row_state(c->columns, ISO_BALL, row, ball);
-    iso_row_state(c->columns, ISO_POINT, row, point);
-    iso_ball_to_point(&c->units.own, ball, ball);
-    scale(ball, iso_unit(&c->units, iso_system_point.fast_dimension));
-    iso_checker_note(&c->map, "map", "the ball's point (18) against the record's", iso_distance(ball, point),
-                     c->number);
 }
 
 iso_status iso_checking_put(iso_checking *c, const double row[])
@@ -122,38 +176,28 @@ iso_status iso_checking_put(iso_checking *c, const double row[])
     ISO_TRY(measure_clocks(c, row));
     for (int k = 0; k < 2; k++)
         if (c->model[k].there) ISO_TRY(check_model(c, &c->model[k], row));
-    if (c->model[0].there && c->model[1].there) check_map(c, row);
     c->begins = false;
+    if (!c->model[ISO_BALL].there || !c->model[ISO_POINT].there) return ISO_OK;
+    double ball[ISO_STATE], point[ISO_STATE];
+    iso_row_state(c->columns, ISO_BALL, row, ball);
+    iso_row_state(c->columns, ISO_POINT, row, point);
+    iso_ball_to_point(&c->units.own, ball, ball);
+    scale(ball, iso_unit(&c->units, iso_system_point.fast_dimension));
+    iso_checker_note(&c->map, "map", "the ball's point (18) against the record's", iso_distance(ball, point),
+                     c->number);
     return ISO_OK;
 }
 
-void iso_checking_begin_orbit(iso_checking *c)
-{
-    c->begins = true;
-}
-
-void iso_checking_pass(iso_checking *c)
-{
-    c->passed++;
-}
-
 /* --- the answer ------------------------------------------------------------------------------------------------- */
-
-/* The steps of a clock are measured by its whole length. */
-static double size_of(const checker *c, const iso_residual *r)
-{
-    for (int k = 0; k < ISO_CLOCKS; k++)
-        if (strncmp(r->name, "clock ", 6) == 0 && strcmp(r->name + 6, iso_clock_name((iso_clock)k)) == 0)
-            return c->span[k];
-    return 1;
-}
 
 static void add(const checker *c, const iso_residuals *found, iso_residuals *all)
 {
     for (int i = 0; i < found->count; i++) {
         const iso_residual *r = &found->residual[i];
-        const double size = size_of(c, r);
-        iso_residual *to = iso_checker_residual(all, r->name, r->what);
+        double size = 1; /* the steps of a clock are measured by its whole length */
+        for (int k = 0; k < ISO_CLOCKS && strncmp(r->name, "clock ", 6) == 0; k++)
+            if (strcmp(r->name + 6, iso_clock_name((iso_clock)k)) == 0) size = c->span[k];
+        iso_residual *to = residual_of(all, r->name, r->what);
         if (to && size > 0 && r->worst / size > to->worst) to->worst = r->worst / size, to->row = r->row;
     }
 }
@@ -208,8 +252,7 @@ iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_recor
     const int orbit = iso_record_find(record, ISO_ORBIT_COLUMN);
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(record); row++) {
         const double *x = iso_record_const_row(record, row);
-        if (orbit >= 0 && row > 0 && x[orbit] != iso_record_const_row(record, row - 1)[orbit])
-            iso_checking_begin_orbit(c);
+        if (orbit >= 0 && row > 0 && x[orbit] != iso_record_const_row(record, row - 1)[orbit]) c->begins = true;
         status = iso_checking_put(c, x);
     }
     if (status == ISO_OK) status = iso_checking_end(c, residuals);
@@ -237,32 +280,28 @@ static const iso_field drift_fields[] = {
     ISO_FIELD_END,
 };
 
-/* What an integral is, in lines: "h.doc", ... */
-static iso_status describe(iso_context *ctx, const iso_drift *d, iso_record *drifts)
-{
-    const iso_field one[] = {{.name = d->integral->name, .type = ISO_FIELD_STRUCT, .fields = drift_fields, .doc = ""},
-                             ISO_FIELD_END};
-    return d->integral->known == ISO_ANY_VALUE ? iso_record_set_fields(ctx, drifts, one, d) : ISO_OK;
-}
-
 static iso_status record_drifts(checker *c, checked_model *m, const iso_record *rows, iso_record **drifts)
 {
-    expectations *e = &m->expect;
     iso_sample sample;
     const char *names[1 + ISO_MAX_INTEGRALS] = {m->clock < 0 ? "row" : iso_clock_name((iso_clock)m->clock)};
     double *to;
-    for (int i = 0; i < e->count; i++) names[1 + i] = e->integral[i].integral->name;
-    iso_status status = iso_record_create(c->ctx, (size_t)(1 + e->count), names, drifts);
+    for (int i = 0; i < m->count; i++) names[1 + i] = m->integral[i].integral->name;
+    iso_status status = iso_record_create(c->ctx, (size_t)(1 + m->count), names, drifts);
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(rows); row++) {
         const double *x = iso_record_const_row(rows, row);
         status = iso_record_append(c->ctx, *drifts, &to);
         if (status != ISO_OK) break;
         to[0] = m->clock < 0 ? (double)row + 1 : iso_checker_at(c, x, m->clock);
         iso_sample_of_row(c->columns, x, &sample);
-        iso_watch_follow(m->orbit, &sample, e->integral, e->count);
-        for (int i = 0; i < e->count; i++) to[1 + i] = fabs(e->integral[i].now);
+        iso_watch_follow(m->orbit, &sample, m->integral, m->count);
+        for (int i = 0; i < m->count; i++) to[1 + i] = fabs(m->integral[i].now);
     }
-    for (int i = 0; status == ISO_OK && i < e->count; i++) status = describe(c->ctx, &e->integral[i], *drifts);
+    for (int i = 0; status == ISO_OK && i < m->count; i++) { /* what an integral is, in lines: "h.doc", ... */
+        const iso_drift *d = &m->integral[i];
+        const iso_field one[] = {
+            {.name = d->integral->name, .type = ISO_FIELD_STRUCT, .fields = drift_fields, .doc = ""}, ISO_FIELD_END};
+        if (d->integral->known == ISO_ANY_VALUE) status = iso_record_set_fields(c->ctx, *drifts, one, d);
+    }
     return status;
 }
 
@@ -270,6 +309,7 @@ static iso_status record_drifts(checker *c, checked_model *m, const iso_record *
 static iso_status look_at_rows(checker *c, checked_model *m, const iso_record *rows)
 {
     iso_start start;
+    iso_sample first;
     iso_status status = ISO_OK;
     if (iso_record_rows(rows) == 0) return ISO_FAIL_INPUT(c->ctx, "", "the trajectory has no rows");
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(rows); row++) {
@@ -279,9 +319,11 @@ static iso_status look_at_rows(checker *c, checked_model *m, const iso_record *r
         if (status == ISO_OK) status = find_start(c, m, iso_record_const_row(rows, row), &start, &effects);
     }
     c->number = 1;
-    if (status == ISO_OK) status = open_first(c, m, iso_record_const_row(rows, 0));
-    if (status == ISO_OK) iso_checker_expect(c, m, iso_record_const_row(rows, 0));
-    return status;
+    ISO_TRY(status);
+    ISO_TRY(open_first(c, m, iso_record_const_row(rows, 0)));
+    iso_sample_of_row(c->columns, iso_record_const_row(rows, 0), &first);
+    expect(m, &first);
+    return ISO_OK;
 }
 
 iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record, int model,

@@ -16,20 +16,6 @@ typedef struct checked {
     int first, count;
 } checked;
 
-/* The size of the group that errors are measured by as well, which the radius carries into the units of this one:
- * forces times it are torques. */
-static double other_size(const checker *c, const checked *k, const iso_sample *flow)
-{
-    const double radius = c->params->body.radius > 0 ? c->params->body.radius : 1;
-    const iso_effect_column *g;
-    double size = 0;
-    if (!k->group->sized_by) return 0;
-    const int first = iso_effect_group(k->effect, k->group->sized_by, &g);
-    for (int i = 0; i < g->count; i++)
-        size = fmax(size, fabs(iso_sample_column(flow, first + i)) * pow(radius, k->group->length - g->length));
-    return size;
-}
-
 /* What is compared: the number, or the angle of a ratio. */
 static double measured(const checked *k, double number)
 {
@@ -40,7 +26,15 @@ static void check_columns(checker *c, iso_residuals *found, const checked *k, co
                           const double row[])
 {
     bool any = false;
-    double error = 0, size = k->group->ratio ? 1 : other_size(c, k, flow);
+    double error = 0, size = k->group->ratio ? 1 : 0;
+    if (k->group->sized_by &&
+        !k->group->ratio) { /* the radius carries it into these units: forces times it are torques */
+        const double radius = c->params->body.radius > 0 ? c->params->body.radius : 1;
+        const iso_effect_column *g;
+        const int other = iso_effect_group(k->effect, k->group->sized_by, &g);
+        for (int i = 0; i < g->count; i++)
+            size = fmax(size, fabs(iso_sample_column(flow, other + i)) * pow(radius, k->group->length - g->length));
+    }
     char name[sizeof found->residual[0].name];
     for (int i = k->first; i < k->first + k->count; i++) {
         const double expected = measured(k, iso_sample_column(flow, i));
@@ -54,18 +48,14 @@ static void check_columns(checker *c, iso_residuals *found, const checked *k, co
     if (any && size > 0) iso_checker_note(found, name, "columns of effects, row to row", error / size, c->number);
 }
 
-static bool same_report(const iso_effect_column *a, const iso_effect_column *b)
-{
-    return b->name && a->checked_as && b->checked_as && strcmp(a->checked_as, b->checked_as) == 0;
-}
-
 void iso_checker_effects_flow(checker *c, iso_residuals *found, const iso_sample *flow, const double row[])
 {
     int first = ISO_COLUMN_EFFECTS;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         for (const iso_effect_column *g = iso_effect_list[e]->columns; g && g->name; g++) {
             checked k = {.group = g, .effect = e, .first = first, .count = g->count};
-            for (; same_report(g, g + 1); g++) k.count += g[1].count;
+            for (; g->checked_as && g[1].name && g[1].checked_as && strcmp(g->checked_as, g[1].checked_as) == 0; g++)
+                k.count += g[1].count;
             if (g->checked_as) check_columns(c, found, &k, flow, row);
             first += k.count;
         }
@@ -91,24 +81,19 @@ bool iso_checker_has_effects(const checker *c)
     return false;
 }
 
-/* Whether an effect that acts on nothing can be asked for because its columns are there: no line has to state a
- * number. */
-static bool is_shown(const checker *c, iso_effect_id id)
-{
-    const iso_effect *effect = iso_effect_list[id];
-    bool stated = false, there = false;
-    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) stated = stated || !n->scene_only;
-    for (int i = iso_effect_first_column(id); i < iso_effect_first_column((iso_effect_id)(id + 1)); i++)
-        there = there || c->columns[ISO_COLUMN_EFFECTS + i] >= 0;
-    return there && !stated && (!effect->needs_D || c->params->D > 0);
-}
-
+/* An observer can be asked for because its columns are there, unless a line has to state a number. */
 void iso_checker_choose_observers(checker *c)
 {
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        if (iso_effect_list[e]->observes)
-            c->effects.on[e] =
-                (c->effects.on[e] && iso_columns_have_beginning(c->columns, c->params, e)) || is_shown(c, e);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        bool stated = false, there = false;
+        if (!effect->observes) continue;
+        for (const iso_effect_number *n = effect->numbers; n && n->name; n++) stated = stated || !n->scene_only;
+        for (int i = iso_effect_first_column(e); i < iso_effect_first_column((iso_effect_id)(e + 1)); i++)
+            there = there || c->columns[ISO_COLUMN_EFFECTS + i] >= 0;
+        const bool shown = there && !stated && (!effect->needs_D || c->params->D > 0);
+        c->effects.on[e] = shown || (c->effects.on[e] && iso_columns_have_beginning(c->columns, c->params, e));
+    }
 }
 
 /* --- lines: h, eps, c ------------------------------------------------------------------------------------------- */
@@ -118,10 +103,10 @@ void iso_checker_choose_observers(checker *c)
 static double off_energy(const checked_model *m, const double own[], double h)
 {
     double size;
-    iso_problem f = m->expect.problem;
+    iso_problem f = iso_orbit_model(m->orbit)->problem;
     const bool ball = m->kind == ISO_BALL;
     if (!ball) f.eps = iso_coupling(&f.p, h);
-    const double here = m->system->energy(&f, own, &size), wanted = ball ? h : m->expect.level;
+    const double here = m->system->energy(&f, own, &size), wanted = ball ? h : m->level;
     return here == wanted ? 0 : fabs(here - wanted) / fmax(size, fabs(wanted));
 }
 
@@ -136,22 +121,24 @@ iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]
 {
     const iso_units *units = iso_orbit_units(m->orbit);
     const bool ball = m->kind == ISO_BALL, level = iso_effects_have_level(&c->stated);
-    const bool any_level = !ball && !m->expect.on_level;
+    const bool any_level = !ball && !m->on_level;
     const char *what = any_level ? "h and eps of the file, against each other" : "this line, against the first row";
     double own[ISO_MAX_STATE], least = INFINITY;
+    iso_sample sample;
     iso_status status;
     const double h = iso_stated_energy(c->ctx, c->record, units, "h", &status);
     ISO_TRY(status);
     const double eps = iso_stated_energy(c->ctx, c->record, units, "eps", &status);
     const bool has_h = isfinite(h), has_eps = isfinite(eps);
     if (status != ISO_OK || !iso_orbit_has_twin(m->orbit) || (!ball && c->model[ISO_BALL].there)) return status;
-    iso_checker_own(c, &m->expect, first, own);
+    iso_sample_of_row(c->columns, first, &sample);
+    iso_orbit_state_of(m->orbit, m->system, &sample, own);
     if (any_level) { /* a free point may have any H: h and eps are compared with each other; the flow depends on eps */
         double size;
-        iso_problem f = m->expect.problem;
+        iso_problem f = iso_orbit_model(m->orbit)->problem;
         if (!has_h || !has_eps) return ISO_OK;
         f.eps = iso_coupling(&units->own, eps);
-        m->expect.level = m->system->energy(&f, own, &size);
+        m->level = m->system->energy(&f, own, &size);
     }
     if (has_h) note_line(c, m, "h", what, least = off_energy(m, own, h));
     if (has_eps) note_line(c, m, "eps", what, off_energy(m, own, any_level ? h : eps));

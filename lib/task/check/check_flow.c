@@ -21,7 +21,9 @@ static const double NEAR = 0.5;
 
 /* --- by integration --------------------------------------------------------------------------------------------- */
 
-iso_status iso_checker_open(const checker *c, const checked_model *m, const double row[], iso_orbit **orbit)
+/* The orbit of a row. The record's other clocks are computed, too, where the orbit has them: a point with H not 0 has
+ * no free ball and no time t. */
+static iso_status open_row(const checker *c, const checked_model *m, const double row[], iso_orbit **orbit)
 {
     iso_start start;
     iso_effects effects = iso_checker_effects(c, m->kind);
@@ -55,7 +57,7 @@ static iso_status check_alone(checker *c, checked_model *m, const double row[])
     iso_sample sample;
     iso_orbit *orbit = NULL;
     if (m->kind != ISO_BALL || !iso_checker_has_effects(c)) return ISO_OK;
-    iso_status status = iso_checker_open(c, m, row, &orbit);
+    iso_status status = open_row(c, m, row, &orbit);
     if (status == ISO_OK) status = iso_orbit_at(orbit, 0, &sample);
     iso_orbit_free(orbit);
     ISO_TRY(name_row(c, status, 0));
@@ -115,7 +117,7 @@ static bool passes(checker *c, checked_model *m, const double row[])
 static iso_status open_at(void *data, const double row[], iso_orbit **orbit)
 {
     const checked_model *m = data;
-    return iso_checker_open(m->checker, m, row, orbit);
+    return open_row(m->checker, m, row, orbit);
 }
 
 iso_status iso_checker_flow_begin(checker *c, checked_model *m, const double first[])
@@ -132,7 +134,7 @@ iso_status iso_checker_flow_begin(checker *c, checked_model *m, const double fir
                          .alone = iso_checker_has_effects(c),
                          .open = open_at,
                          .data = m};
-    status = iso_checker_open(c, m, first, &orbit);
+    status = open_row(c, m, first, &orbit);
     if (status == ISO_NO_MEMORY) return status; /* what else is wrong is said when the row is integrated */
     m->method = orbit ? iso_method_of_other_kind(iso_orbit_model(orbit)) : NULL;
     status = iso_rows_begin(&m->rows, orbit, first, c->tolerance);

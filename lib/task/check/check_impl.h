@@ -1,12 +1,9 @@
-/* check_impl.h - what a check is made of. check.c is above the others, but check_unseen.c and check_study.c are above
- * check.c. Of the others, check_flow.c calls check_effects.c. All call check_common.c.
+/* check_impl.h - what a check is made of. Each file calls those below it, and notes what it finds by iso_checker_note.
  *
- *     check_study.c       what is typed, rows, and the table
- *     check_unseen.c      which columns and lines no residual depends on
- *     check.c             rows come in, residuals go out
+ *     check_study.c       what is typed, rows, the table, and which columns and lines no residual depends on
+ *     check.c             rows come in, residuals go out; constraints and integrals at each row
  *     check_flow.c        from each row to the next: state and clocks
  *     check_effects.c     the same for the columns of effects; what lines state, against a row
- *     check_common.c      residuals by name, rows as states; constraints and integrals at each row
  */
 #ifndef ISO_STUDY_CHECK_IMPL_H
 #define ISO_STUDY_CHECK_IMPL_H
@@ -20,7 +17,7 @@
 /* --- row by row ---------------------------------------------------------------------------------------------------
  *
  *     iso_checking_create(ctx, &params, header, 1e-13, &c);
- *     while (next(row)) status = iso_checking_put(c, row); (before it iso_checking_begin_orbit, where one begins)
+ *     while (next(row)) status = iso_checking_put(c, row);      c->begins = true before it: of another orbit
  *     status = iso_checking_end(c, &residuals);
  *     iso_checking_free(c);
  *
@@ -36,13 +33,6 @@ void iso_checking_free(iso_checking *checking);
 
 /* The next row: as many numbers as the header has columns. Errors: those of iso_check. */
 iso_status iso_checking_put(iso_checking *checking, const double row[]);
-
-/* The next row is the first of another orbit, of the same energy: no flow goes to it from the row before, and the
- * integrals but the energy may have other values. */
-void iso_checking_begin_orbit(iso_checking *checking);
-
-/* Call this in the place of a row of nan: it is counted, and the flow goes from the row before to the one behind. */
-void iso_checking_pass(iso_checking *checking);
 
 /* After the last row. Errors: ISO_BAD_INPUT, if there was none. */
 iso_status iso_checking_end(iso_checking *checking, iso_residuals *residuals);
@@ -63,18 +53,6 @@ iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const is
 
 typedef struct iso_checking checker;
 
-/* The integrals that hold for a model, and the value each should have. */
-typedef struct expectations {
-    const iso_system *system;
-    const iso_orbit *first;
-    iso_problem problem; /* with which integrals are computed */
-    int count;
-    iso_drift integral[ISO_MAX_INTEGRALS];
-    bool on_level; /* a point: its H is known, and is ... */
-    double level;
-    double energy; /* of all orbits of the file; NaN: that of its first row */
-} expectations;
-
 /* One of the two models, as the rows have it. */
 typedef struct checked_model {
     iso_model_kind kind;
@@ -85,7 +63,11 @@ typedef struct checked_model {
     bool has_eps; /* the lines state eps, for a point            */
     double eps;
     iso_orbit *orbit; /* of the first row */
-    expectations expect;
+    int count;        /* of integrals that hold, each with the value that it should have */
+    iso_drift integral[ISO_MAX_INTEGRALS];
+    bool on_level; /* a point: its H is known, and is ... */
+    double level;
+    double energy; /* of all orbits of the file; NaN: that of its first row */
     iso_rows rows;
     const iso_method *method; /* that integrates from row to row; NULL: auto */
     struct iso_checking *checker;
@@ -103,19 +85,18 @@ struct iso_checking {
     int columns[ISO_TRAJECTORY_COLUMNS]; /* of the record, -1: not there           */
     bool looked[ISO_TRAJECTORY_COLUMNS]; /* the column was compared with something */
     size_t width;                        /* of a row                               */
-    size_t rows, passed;                 /* so far; passed over                                           */
+    size_t rows, passed;                 /* so far; rows of nan that were passed over, counted by who reads them */
     size_t number, before;               /* of the row in hand, and of the last                           */
-    bool begins;                         /* the row in hand is the first of its orbit */
-    double span[ISO_CLOCKS];             /* largest |clock| so far                 */
-    iso_units units;                     /* for the map                            */
+    /* The next row is the first of its orbit: no flow goes to it from the row before, and the integrals but the energy
+     * may have other values. */
+    bool begins;
+    double span[ISO_CLOCKS]; /* largest |clock| so far                 */
+    iso_units units;         /* for the map                            */
     checked_model model[2];
     iso_residuals map;
 };
 
-/* --- check_common.c --------------------------------------------------------------------------------------------- */
-
-/* The residual of a name; it is made if it is new. NULL: there are too many. */
-iso_residual *iso_checker_residual(iso_residuals *r, const char *name, const char *what);
+/* --- check.c ------------------------------------------------------------------------------------------------------- */
 
 /* Notes a value of the residual `name`, and makes the residual at its first value. A NaN counts as infinite. */
 void iso_checker_note(iso_residuals *found, const char *name, const char *what, double value, size_t row);
@@ -130,19 +111,7 @@ static inline double iso_checker_at(const checker *c, const double row[], int co
  * each row if eps is known. */
 iso_effects iso_checker_effects(const checker *c, iso_model_kind kind);
 
-/* The first row of an orbit gives the values, but all orbits of a file have the energy of its first row. */
-void iso_checker_expect(const checker *c, checked_model *m, const double first[]);
-
-void iso_checker_integrals(const checker *c, checked_model *m, const double row[]);
-
-/* The state in a row, own units. */
-void iso_checker_own(const checker *c, const expectations *e, const double row[], double own[ISO_MAX_STATE]);
-
 /* --- check_flow.c ----------------------------------------------------------------------------------------------- */
-
-/* The orbit of a row. The record's other clocks are computed, too, where the orbit has them: a point with H not 0 has
- * no free ball and no time t. */
-iso_status iso_checker_open(const checker *c, const checked_model *m, const double row[], iso_orbit **orbit);
 
 /* At the first row. Errors: ISO_NO_MEMORY. */
 iso_status iso_checker_flow_begin(checker *c, checked_model *m, const double first[]);

@@ -1,8 +1,9 @@
-/* check_study.c - check by its name: what options add to the lines of a trajectory, its rows one after the other, and
- * its residuals as a table (study/study.h). */
+/* check_study.c - check by its name: what options add to the lines of a trajectory, its rows one after the other, its
+ * residuals as a table (study/study.h), and which columns and lines no residual depends on. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "orbit/description.h"
 #include "study/fields_impl.h"
@@ -41,6 +42,60 @@ static void free_found(void *found)
 {
     if (found) free(((iso_check_found *)found)->unseen);
     free(found);
+}
+
+/* --- what is not looked at -------------------------------------------------------------------------------------- */
+
+/* A test changes every number of many files by a millionth: a residual notices, or the number is named here. */
+static bool is_followed(const checker *c)
+{
+    return c->model[ISO_BALL].followed || c->model[ISO_POINT].followed;
+}
+
+/* A residual has the name of the line: it was compared with rows. */
+static bool is_compared(const checker *c, const char *name)
+{
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < c->model[k].found.count; i++)
+            if (strcmp(c->model[k].found.residual[i].name, name) == 0) return true;
+    return false;
+}
+
+/* Whether the line is a number or a text of the equations. What turns with the ball is taken from the rows. */
+static bool is_of_equations(const checker *c, const char *key)
+{
+    char line[ISO_NAME_SIZE];
+    if (strcmp(key, "k") == 0 || strcmp(key, "J") == 0 || strcmp(key, "effects") == 0) return true;
+    const bool radius = strcmp(key, "radius") == 0, D = strcmp(key, "D") == 0;
+    if ((radius || D) && iso_checker_has_effects(c)) return true;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        const size_t length = strlen(effect->name);
+        if (D && effect->needs_D && c->effects.on[e] && !c->effects.idle[e]) return true;
+        if (!c->effects.on[e] || strncmp(key, effect->name, length) != 0 || key[length] != '.') continue;
+        for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
+            iso_effect_line(line, effect, n->name);
+            if (strcmp(line, key) == 0) return !n->turns_with && !c->effects.idle[e];
+        }
+        return true;
+    }
+    return false;
+}
+
+void iso_checking_unseen(iso_checking *c, void (*note)(void *data, const char *name), void *data)
+{
+    char name[ISO_NAME_SIZE + 8];
+    const char *key, *value;
+    if (!is_followed(c)) note(data, "the flow from row to row");
+    for (size_t i = 0; i < c->width; i++) {
+        const int column = iso_column_find(iso_record_name(c->record, i));
+        const bool orbit = strcmp(iso_record_name(c->record, i), ISO_ORBIT_COLUMN) == 0;
+        if (!orbit && (column < 0 || !c->looked[column])) note(data, iso_record_name(c->record, i));
+    }
+    for (size_t i = 0; iso_record_line(c->record, i, &key, &value); i++) {
+        snprintf(name, sizeof name, "# %.*s", ISO_NAME_SIZE, key);
+        if (!is_compared(c, name) && !(is_followed(c) && is_of_equations(c, key))) note(data, name);
+    }
 }
 
 /* --- the rows --------------------------------------------------------------------------------------------------- */
@@ -87,7 +142,6 @@ static iso_status check_rows(iso_context *ctx, const iso_study_subject *subject,
     iso_record *header = NULL; /* with the lines that the request and the scene state */
     iso_checking *checking = NULL;
     iso_source_row row = {.number = calloc(iso_record_columns(subject->record) + 1, sizeof *row.number)};
-    size_t passed = 0;
     f->bound = r->bound;
     iso_status status = row.number ? iso_record_create_like(ctx, subject->record, 0, NULL, &header)
                                    : iso_context_no_memory(ctx, "a row");
@@ -95,9 +149,9 @@ static iso_status check_rows(iso_context *ctx, const iso_study_subject *subject,
     if (status == ISO_OK) status = iso_file_parameters_apply(ctx, &r->added, subject->scene, header, &params);
     if (status == ISO_OK) status = iso_checking_create(ctx, &params, header, r->tolerance, &checking);
     while (status == ISO_OK) {
-        for (; passed < row.passed; passed++) iso_checking_pass(checking);
+        checking->passed = row.passed;
         if (!row.more) break;
-        if (row.begins_orbit) iso_checking_begin_orbit(checking);
+        if (row.begins_orbit) checking->begins = true;
         status = iso_checking_put(checking, row.number);
         if (status == ISO_OK) status = from->next(ctx, from->data, &row);
     }
@@ -159,11 +213,6 @@ const iso_option iso_check_option[] = {
     ISO_OPTION_END,
 };
 
-const iso_study iso_check_study = {"check",
-                                   "test whether a trajectory solves its model",
-                                   iso_check_option,
-                                   sizeof(iso_check_request),
-                                   begin,
-                                   .run = run,
-                                   .of = ISO_STUDY_OF_RECORD | ISO_STUDY_USES_SCENE,
-                                   .print = print_found};
+const iso_study iso_check_study = {
+    ISO_STUDY_AS("check", iso_check_request, iso_check_option, "test whether a trajectory solves its model"),
+    .run = run, .of = ISO_STUDY_OF_RECORD | ISO_STUDY_USES_SCENE, .print = print_found};

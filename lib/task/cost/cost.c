@@ -11,6 +11,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/math_impl.h"
+#include "base/vec3_impl.h"
 #include "task/cost/cost_impl.h"
 
 /* How the time is divided: REFERENCES is the part for references. Of the rest each cell may use so much that it can
@@ -111,19 +112,6 @@ static iso_status choose_cells(measurer *m)
 
 /* --- errors ----------------------------------------------------------------------------------------------------- */
 
-/* The closed solution is compared with the second reference, because the first may be itself. */
-static void measure_errors(measurer *m, const cost_track *track, iso_cost_cell *cell)
-{
-    const cost_reference *r = &m->reference;
-    const cost_track *against = cell->backend == ISO_BACKEND_EXACT ? &r->second : &r->first;
-    cell->error = cell->backend == ISO_BACKEND_EXACT && !r->doubted ? NAN : iso_cost_distance(track, against);
-    cell->energy_drift = track->energy_drift;
-    cell->constraint_drift = track->constraint_drift;
-    cell->statistics = track->statistics;
-    cell->below = cell->error < 3 * r->uncertainty;
-    if (cell->backend == ISO_BACKEND_EXACT) cell->below = false;
-}
-
 static void __attribute__((format(printf, 3, 4)))
 fail(iso_cost_cell *cell, iso_status status, const char *format, ...)
 {
@@ -138,6 +126,9 @@ fail(iso_cost_cell *cell, iso_status status, const char *format, ...)
  * the time of the first run. */
 static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double *about)
 {
+    const cost_reference *r = &m->reference;
+    const bool exact = cell->backend == ISO_BACKEND_EXACT;
+    const cost_track *against = exact ? &r->second : &r->first;
     cost_track track;
     iso_status status = iso_cost_track_make(&m->p, m->reference.first.times, m->time, &track);
     if (status != ISO_OK) {
@@ -149,30 +140,20 @@ static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double 
     if (status == ISO_OK) {
         cell->status = ISO_OK;
         cell->why[0] = 0;
-        measure_errors(m, &track, cell);
+        /* the closed solution is compared with the second reference, because the first may be itself */
+        cell->error = exact && !r->doubted ? NAN : iso_cost_distance(&track, against);
+        cell->energy_drift = track.energy_drift;
+        cell->constraint_drift = track.constraint_drift;
+        cell->statistics = track.statistics;
+        cell->below = !exact && cell->error < 3 * r->uncertainty;
         if (iso_cost_walk(&m->p, cell->backend, cell->method, cell->tolerance, true, 2 * seconds, &track) == ISO_OK)
-            cell->clock_error = iso_cost_clock_distance(
-                &track, cell->backend == ISO_BACKEND_EXACT ? &m->reference.second : &m->reference.first);
+            cell->clock_error = iso_cost_clock_distance(&track, against);
     } else if (status != ISO_STOPPED) {
         fail(cell, status, "%s", iso_context_message(m->p.ctx));
     } else if (!iso_cost_is_stopped(&m->p)) {
         fail(cell, ISO_STOPPED, "it would take more than %.2g s, its share of the time", seconds);
     }
     iso_cost_track_free(&track);
-}
-
-/* Leaves out the tighter tolerances of a series that takes too long. */
-static void give_up(measurer *m, const iso_cost_series *series, int from)
-{
-    for (int i = from; i < series->count; i++)
-        fail(&m->out->cell[series->first + i], ISO_STOPPED, "not tried: it takes too long at tolerance %s",
-             ISO_SHORT(m->tolerance[from - 1]));
-}
-
-/* The time that the least number of repeats takes. Short runs are run once before, and several are timed at once. */
-static double repeats_of(double about)
-{
-    return LEAST_REPEATS * (about < MOMENT ? 2 * about + MOMENT / 10 : about);
 }
 
 /* How long the next of `left` cells may run. */
@@ -193,28 +174,21 @@ static void check_cells(measurer *m, double about[])
             const iso_cost_series *series = &m->out->series[l];
             if (i >= series->count || !alive[l]) continue;
             iso_cost_cell *cell = &m->out->cell[series->first + i];
-            check_cell(m, cell, share_of(m, left--), &about[series->first + i]);
-            if (cell->status == ISO_OK) m->promised += repeats_of(about[series->first + i]);
+            double *took = &about[series->first + i];
+            check_cell(m, cell, share_of(m, left--), took);
+            if (cell->status == ISO_OK) /* short runs are run once before, and several are timed at once */
+                m->promised += LEAST_REPEATS * (*took < MOMENT ? 2 * *took + MOMENT / 10 : *took);
             report_progress(m, cell->method ? cell->method->name : "exact");
             if (cell->status != ISO_STOPPED || iso_cost_is_stopped(&m->p)) continue;
             alive[l] = false;
-            give_up(m, series, i + 1);
+            for (int j = i + 1; j < series->count; j++)
+                fail(&m->out->cell[series->first + j], ISO_STOPPED, "not tried: it takes too long at tolerance %s",
+                     ISO_SHORT(m->tolerance[i]));
             left -= series->count - i - 1;
         }
 }
 
 /* --- times ------------------------------------------------------------------------------------------------------ */
-
-static void time_cell(measurer *m, iso_cost_cell *cell, cost_times *times, double about)
-{
-    const int n = times->count;
-    const iso_status status = iso_cost_time(&m->p, cell, m->p.end, n > 0 ? times->stepping[n - 1] : about,
-                                            &times->setup[n], &times->stepping[n], &cell->statistics);
-    if (status == ISO_OK)
-        times->count++;
-    else if (!m->p.monitor.stopped)
-        fail(cell, status, "%s", iso_context_message(m->p.ctx));
-}
 
 /* Times all cells once in each round, until all times are settled or the time is over. */
 static void time_cells(measurer *m, const double about[])
@@ -226,40 +200,19 @@ static void time_cells(measurer *m, const double about[])
             iso_cost_cell *cell = &m->out->cell[i];
             if (iso_cost_is_stopped(&m->p) || (round >= LEAST_REPEATS && elapsed(m) > m->seconds)) return;
             if (cell->status != ISO_OK || iso_cost_times_settled(&m->times[i])) continue;
-            time_cell(m, cell, &m->times[i], about[i]);
+            cost_times *times = &m->times[i];
+            const int n = times->count;
+            const iso_status status = iso_cost_time(&m->p, cell, m->p.end, n > 0 ? times->stepping[n - 1] : about[i],
+                                                    &times->setup[n], &times->stepping[n], &cell->statistics);
+            times->count += status == ISO_OK;
+            if (status != ISO_OK && !m->p.monitor.stopped) fail(cell, status, "%s", iso_context_message(m->p.ctx));
             open++;
             report_progress(m, "times");
         }
     }
 }
 
-/* Where a stop leaves a cell without a time, it gets the time of the run that gave its error, with set-up. */
-static void keep_first_runs(measurer *m, const double about[])
-{
-    for (int i = 0; i < m->out->cells; i++) {
-        cost_times *times = &m->times[i];
-        if (m->out->cell[i].status != ISO_OK || times->count > 0) continue;
-        times->count = 1;
-        times->setup[0] = 0;
-        times->stepping[0] = about[i];
-    }
-}
-
 /* --- all of it -------------------------------------------------------------------------------------------------- */
-
-/* The normal's speed is |k omega x n|. */
-static double count_turns(const measurer *m)
-{
-    const cost_track *t = &m->reference.first;
-    double mean = 0;
-    for (int i = 0; i < t->reached; i++) {
-        const double *w = t->row[i].ball, *n = w + 3;
-        const double x = w[1] * n[2] - w[2] * n[1], y = w[2] * n[0] - w[0] * n[2], z = w[0] * n[1] - w[1] * n[0];
-        mean += hypot(hypot(x, y), z) / t->reached;
-    }
-    const double end = m->p.clock == ISO_CLOCK_T ? m->p.end : t->row[t->reached - 1].clock;
-    return fabs(m->p.scene->params.k * mean * end) / (2 * ISO_PI);
-}
 
 static iso_status find_reference(measurer *m)
 {
@@ -272,7 +225,15 @@ static iso_status find_reference(measurer *m)
     snprintf(m->out->reference, sizeof m->out->reference, "%s", m->reference.what);
     snprintf(m->out->second, sizeof m->out->second, "%s", m->reference.second_what);
     m->out->uncertainty = m->reference.uncertainty;
-    m->out->turns = count_turns(m);
+    const cost_track *t = &m->reference.first;
+    double mean = 0;
+    for (int i = 0; i < t->reached; i++) { /* the normal's speed is |k omega x n| */
+        double speed[3];
+        cross(t->row[i].ball, t->row[i].ball + 3, speed);
+        mean += hypot(hypot(speed[0], speed[1]), speed[2]) / t->reached;
+    }
+    const double end = m->p.clock == ISO_CLOCK_T ? m->p.end : t->row[t->reached - 1].clock;
+    m->out->turns = fabs(m->p.scene->params.k * mean * end) / (2 * ISO_PI);
     return ISO_OK;
 }
 
@@ -285,10 +246,14 @@ static iso_status measure(measurer *m)
     if (!about) return iso_context_no_memory(m->p.user, "the cells");
     check_cells(m, about);
     time_cells(m, about);
-    keep_first_runs(m, about);
+    for (int i = 0; i < c->cells; i++) {
+        cost_times *times = &m->times[i];
+        /* a stop leaves it without a time: it gets that of the run that gave its error, with set-up */
+        if (c->cell[i].status == ISO_OK && times->count == 0) times->count = 1, times->stepping[0] = about[i];
+        iso_cost_times_read(times, &c->cell[i]);
+    }
     free(about);
-    for (int i = 0; i < c->cells; i++) iso_cost_times_read(&m->times[i], &c->cell[i]);
-    iso_cost_judge(c);
+    iso_cost_evaluate(c);
     c->complete = !iso_cost_is_stopped(&m->p);
     return c->complete ? ISO_OK : iso_context_stopped(m->p.user);
 }

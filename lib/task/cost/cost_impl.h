@@ -32,9 +32,6 @@ void iso_cost_problem_close(cost_problem *p);
 iso_status iso_cost_orbit_open(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
                                bool with_clock, iso_orbit **orbit);
 
-/* From now on everything that uses p->ctx stops after so many seconds. */
-void iso_cost_allow(cost_problem *p, double seconds);
-
 /* Whether the caller has asked to stop. */
 bool iso_cost_is_stopped(cost_problem *p);
 
@@ -98,7 +95,7 @@ void iso_cost_times_read(const cost_times *times, iso_cost_cell *cell);
 double iso_cost_slope(int count, const double x[], const double y[], double apart);
 
 /* Fits the series, and finds the cells that are pareto. */
-void iso_cost_judge(iso_cost *cost);
+void iso_cost_evaluate(iso_cost *cost);
 
 /* Whether a cell has a result. */
 bool iso_cost_is_measured(const void *cell);

@@ -59,14 +59,6 @@ static void print_head(FILE *to, const iso_scene *scene, const iso_cost *c)
         fputs("  of unknown uncertainty: there is no second reference to compare it with\n\n", to);
 }
 
-static void print_number(FILE *to, double x)
-{
-    if (isnan(x))
-        fputs("\t-", to);
-    else
-        fprintf(to, "\t%.1e", x);
-}
-
 /* Which cell it is: backend, method, tolerance. */
 static void print_name(FILE *to, const iso_cost_cell *c, const char *between)
 {
@@ -74,29 +66,24 @@ static void print_name(FILE *to, const iso_cost_cell *c, const char *between)
     fprintf(to, "%s%s", between, c->method ? ISO_SHORT(c->tolerance) : "-");
 }
 
-static void print_cell(FILE *to, const iso_cost_cell *c)
-{
-    char median[COST_SECONDS], setup[COST_SECONDS];
-    print_name(to, c, "\t");
-    if (isnan(c->error))
-        fputs("\t-", to);
-    else
-        fprintf(to, "\t%s%s%.1e", c->pareto ? "*" : "", c->below ? "~" : "", c->error);
-    print_number(to, c->clock_error);
-    print_number(to, c->energy_drift);
-    fprintf(to, "\t%s\t%.0f %%\t%ld\t%ld\t%s\n", seconds_text(c->median, median),
-            100 * (c->slowest - c->fastest) / c->median, c->statistics.steps, c->statistics.rhs,
-            seconds_text(c->setup, setup));
-}
-
 static void print_cells(FILE *to, const iso_cost *cost, const iso_cost_series *const *series)
 {
+    char median[COST_SECONDS], setup[COST_SECONDS];
     fputs("\n", to);
     iso_table_begin(to, 3);
     fputs("backend\tmethod\ttol\terror\tclocks\tenergy\ttime\tspread\tsteps\trhs\tset-up\n", to);
     for (int l = 0; l < cost->series_count; l++)
-        for (int i = series[l]->first; i < series[l]->first + series[l]->count; i++)
-            if (iso_cost_is_measured(&cost->cell[i])) print_cell(to, &cost->cell[i]);
+        for (int i = series[l]->first; i < series[l]->first + series[l]->count; i++) {
+            const iso_cost_cell *c = &cost->cell[i];
+            if (!iso_cost_is_measured(c)) continue;
+            print_name(to, c, "\t");
+            fprintf(to, isnan(c->error) ? "\t-" : "\t%s%s%.1e", c->pareto ? "*" : "", c->below ? "~" : "", c->error);
+            fprintf(to, isnan(c->clock_error) ? "\t-" : "\t%.1e", c->clock_error);
+            fprintf(to, isnan(c->energy_drift) ? "\t-" : "\t%.1e", c->energy_drift);
+            fprintf(to, "\t%s\t%.0f %%\t%ld\t%ld\t%s\n", seconds_text(c->median, median),
+                    100 * (c->slowest - c->fastest) / c->median, c->statistics.steps, c->statistics.rhs,
+                    seconds_text(c->setup, setup));
+        }
     iso_table_end(to);
     fprintf(to, "  *  nothing else is both more exact and faster\n"
                 "  ~  less than the uncertainty of the reference\n"
@@ -136,71 +123,52 @@ static void print_left_out(FILE *to, const iso_cost *cost)
     }
 }
 
+/* The cheapest cell with an error of so many digits. */
+static const iso_cost_cell *choose_digits(const iso_cost *cost, bool steps, const iso_cost_series *series, int digits)
+{
+    return digits <= MOST_DIGITS ? iso_cost_choose(cost, steps, series, pow(10, -digits)) : NULL;
+}
+
 /* --- what the methods give for more time ------------------------------------------------------------------------ */
-
-static void print_time_to(FILE *to, const iso_cost *cost, const iso_cost_series *series, double want)
-{
-    char words[COST_SECONDS];
-    const iso_cost_cell *c = iso_cost_choose(cost, true, series, want);
-    fprintf(to, "\t%s", seconds_text(c ? c->total : (double)NAN, words));
-}
-
-static void print_line(FILE *to, const iso_cost *cost, const iso_cost_series *m)
-{
-    fprintf(to, "%s\t%s", iso_backend_name((int)m->backend), m->method->name);
-    print_time_to(to, cost, m, 1e-6);
-    print_time_to(to, cost, m, 1e-9);
-    print_time_to(to, cost, m, 1e-12);
-    if (isnan(m->digit))
-        fputs("\t-", to);
-    else
-        fprintf(to, "\t%.2f times", m->digit);
-    if (isnan(m->order) || m->method->order == 0)
-        fputs("\t-", to);
-    else
-        fprintf(to, "\t%.1f of %d", m->order, m->method->order);
-    fprintf(to, "\t%.1e", m->least);
-    if (isnan(m->stops_at))
-        fputs("\t-\n", to);
-    else
-        fprintf(to, "\t%s\n", ISO_SHORT(m->stops_at));
-}
 
 static void print_lines(FILE *to, const iso_cost *cost, const iso_cost_series *const *series)
 {
+    char words[COST_SECONDS];
     fprintf(
         to,
         "\nmethods, sorted by their time to an error of 1e-9: time to reach an error, factor in time for one more "
         "digit, order (measured, and of the method), least error, tolerance below which nothing is gained\n");
     iso_table_begin(to, 2);
     fputs("backend\tmethod\tto 1e-6\tto 1e-9\tto 1e-12\ta digit\torder\tleast error\tno gain below\n", to);
-    for (int l = 0; l < cost->series_count; l++)
-        if (series[l]->method && !isnan(series[l]->least)) print_line(to, cost, series[l]);
+    for (int l = 0; l < cost->series_count; l++) {
+        const iso_cost_series *m = series[l];
+        if (!m->method || isnan(m->least)) continue;
+        fprintf(to, "%s\t%s", iso_backend_name((int)m->backend), m->method->name);
+        for (int digits = 6; digits <= 12; digits += 3) {
+            const iso_cost_cell *c = choose_digits(cost, true, m, digits);
+            fprintf(to, "\t%s", seconds_text(c ? c->total : (double)NAN, words));
+        }
+        fprintf(to, isnan(m->digit) ? "\t-" : "\t%.2f times", m->digit);
+        fprintf(to, isnan(m->order) || m->method->order == 0 ? "\t-" : "\t%.1f of %d", m->order, m->method->order);
+        fprintf(to, isnan(m->stops_at) ? "\t%.1e\t-\n" : "\t%.1e\t%s\n", m->least, ISO_SHORT(m->stops_at));
+    }
     iso_table_end(to);
 }
 
 /* --- the answer ------------------------------------------------------------------------------------------------- */
 
-static void print_choice(FILE *to, const iso_cost_cell *c, int digits)
-{
-    char words[COST_OPTIONS], seconds[COST_SECONDS];
-    fprintf(to, "  for 1e-%-2d  %s: %s (error %.1e%s)\n", digits, options_of(c, words),
-            seconds_text(c->total, seconds), c->error, c->below ? ", or less: the reference is no better" : "");
-}
-
-static const iso_cost_cell *choose_digits(const iso_cost *cost, bool steps, int digits)
-{
-    return digits <= MOST_DIGITS ? iso_cost_choose(cost, steps, NULL, pow(10, -digits)) : NULL;
-}
-
 /* Each choice once, with the most digits for which it is the choice, beginning with `digits`. Returns the first
  * number of digits that nothing reaches. */
 static int print_choices(FILE *to, const iso_cost *cost, bool steps, int digits)
 {
-    const iso_cost_cell *c = choose_digits(cost, steps, digits);
+    char words[COST_OPTIONS], seconds[COST_SECONDS];
+    const iso_cost_cell *c = choose_digits(cost, steps, NULL, digits);
     for (; c; digits++) {
-        const iso_cost_cell *next = choose_digits(cost, steps, digits + 1);
-        if (next != c) print_choice(to, c, digits);
+        const iso_cost_cell *next = choose_digits(cost, steps, NULL, digits + 1);
+        if (next != c)
+            fprintf(to, "  for 1e-%-2d  %s: %s (error %.1e%s)\n", digits, options_of(c, words),
+                    seconds_text(c->total, seconds), c->error,
+                    c->below ? ", or less: the reference is no better" : "");
         c = next;
     }
     return digits;
@@ -213,8 +181,8 @@ static void print_answer(FILE *to, const iso_cost *cost)
     const int beyond = print_choices(to, cost, false, 1);
     if (beyond <= MOST_DIGITS) fprintf(to, "  nothing measured reaches 1e-%d\n", beyond);
     for (int digits = 1; digits < beyond; digits++) {
-        if (choose_digits(cost, false, digits)->method) continue;
-        if (!choose_digits(cost, true, digits)) return;
+        if (choose_digits(cost, false, NULL, digits)->method) continue;
+        if (!choose_digits(cost, true, NULL, digits)) return;
         fputs("without the closed solution\n", to);
         print_choices(to, cost, true, digits);
         return;

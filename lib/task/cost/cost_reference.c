@@ -69,16 +69,6 @@ static void add_fine(sources *s, iso_backend backend)
     while (count > 0) add(s, backend, fine[--count], 1e-15);
 }
 
-/* What stiff models need: the implicit witnesses, and the last of them, which goes farthest, at a looser
- * tolerance. */
-static void add_implicit(sources *s, iso_backend backend)
-{
-    const iso_method *last = NULL;
-    for (int place = 1; iso_method_witness(place); place++)
-        if (iso_method_witness(place)->implicit) add(s, backend, last = iso_method_witness(place), 1e-14);
-    if (last) add(s, backend, last, 1e-12);
-}
-
 /* --- the reference, and what bears it out ----------------------------------------------------------------------- */
 
 static iso_status find_first(cost_problem *p, double seconds, cost_reference *r, source *from)
@@ -87,7 +77,11 @@ static iso_status find_first(cost_problem *p, double seconds, cost_reference *r,
     add(&s, ISO_BACKEND_EXACT, NULL, 0);
     add_fine(&s, (iso_backend)p->scene->start.model);
     add(&s, ISO_BACKEND_BALL, iso_method_with_more_digits(ISO_DOUBLE_DIGITS), 1e-15);
-    add_implicit(&s, ISO_BACKEND_BALL);
+    /* what stiff models need: the implicit witnesses, and the last of them, which goes farthest, at a looser tolerance */
+    const iso_method *last = NULL, *m;
+    for (int place = 1; (m = iso_method_witness(place)); place++)
+        if (m->implicit) add(&s, ISO_BACKEND_BALL, last = m, 1e-14);
+    if (last) add(&s, ISO_BACKEND_BALL, last, 1e-12);
     const int i = best_source(p, s.list, s.count, seconds, &r->first);
     if (iso_cost_is_stopped(p)) return iso_context_stopped(p->user);
     if (i < 0 || r->first.reached < r->first.times)

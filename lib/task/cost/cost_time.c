@@ -175,7 +175,7 @@ static void fit(const iso_cost_cell cell[], iso_cost_series *series)
     series->order = isfinite(order) && series->method && series->method->order > 0 ? order : NAN;
 }
 
-void iso_cost_judge(iso_cost *cost)
+void iso_cost_evaluate(iso_cost *cost)
 {
     for (int l = 0; l < cost->series_count; l++) {
         iso_cost_series *series = &cost->series[l];

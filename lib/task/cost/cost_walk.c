@@ -22,7 +22,8 @@ static bool go_on(void *data)
     return !w->stopped && !w->late;
 }
 
-void iso_cost_allow(cost_problem *p, double seconds)
+/* From now on everything that uses p->ctx stops after so many seconds. */
+static void allow(cost_problem *p, double seconds)
 {
     p->monitor.deadline = processor_seconds() + seconds;
     p->monitor.late = false;
@@ -99,13 +100,6 @@ void iso_cost_track_free(cost_track *track)
     track->row = NULL;
 }
 
-/* Whether the whole track will take longer, judged by the time that the part so far took. */
-static bool looks_longer(const cost_track *track, double took, double seconds)
-{
-    const double share = track->time[track->reached - 1] / track->time[track->times - 1];
-    return took > seconds / 8 && share > 0 && took / share > 1.5 * seconds;
-}
-
 static iso_status walk(cost_problem *p, iso_orbit *orbit, double seconds, cost_track *track)
 {
     iso_sample sample;
@@ -122,7 +116,9 @@ static iso_status walk(cost_problem *p, iso_orbit *orbit, double seconds, cost_t
         track->row[i].clock = sample.clock[p->other];
         track->reached++;
         iso_watch_follow(orbit, &sample, integral, integrals);
-        if (i + 1 < track->times && looks_longer(track, track->seconds, seconds)) status = ISO_STOPPED;
+        const double share = track->time[i] / track->time[track->times - 1]; /* of the whole, judged by which ... */
+        const bool long_enough = i + 1 < track->times && share > 0 && track->seconds > seconds / 8;
+        if (long_enough && track->seconds / share > 1.5 * seconds) status = ISO_STOPPED; /* ... it takes longer */
     }
     track->energy_drift = track->constraint_drift = NAN;
     for (int i = 0; i < integrals; i++) {
@@ -139,7 +135,7 @@ iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method 
     iso_orbit *orbit;
     track->reached = 0;
     track->seconds = 0;
-    iso_cost_allow(p, 1.5 * seconds);
+    allow(p, 1.5 * seconds);
     iso_status status = iso_cost_orbit_open(p, backend, method, tolerance, with_clock, &orbit);
     if (status == ISO_OK) {
         status = walk(p, orbit, seconds, track);
@@ -147,7 +143,7 @@ iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method 
         iso_orbit_free(orbit);
     }
     if (status == ISO_STOPPED) iso_context_fail(p->ctx, ISO_STOPPED, "", "it would take too long");
-    iso_cost_allow(p, INFINITY);
+    allow(p, INFINITY);
     return status;
 }
 

@@ -22,7 +22,7 @@ typedef struct explanation {
     bool twin;
     const char *integrability;
     size_t rows;
-    const char *text; /* freed with the rest */
+    const char *text; /* that of the result */
 } explanation;
 
 /* --- the text --------------------------------------------------------------------------------------------------- */
@@ -85,13 +85,6 @@ static iso_integrability integrability_of(const iso_scene *scene, const iso_orbi
 {
     const iso_effects effects = iso_orbit_effects(orbit);
     return iso_integrability_of(&scene->params, &effects, false); /* the level is an effect here */
-}
-
-/* Says which Poincare section (`isoroll section`) is global for this orbit. */
-static void explain_section(FILE *to, const iso_orbit *orbit)
-{
-    const iso_section_nature n = iso_section_of(orbit, ISO_AXIS_AUTO);
-    if (iso_orbit_has_twin(orbit) || iso_orbit_energy(orbit) != 0) fprintf(to, "section\n  %s\n\n", n.words);
 }
 
 /* What the closed solution is, or in `why` why `run --backend exact` cannot compute these columns: then *kind is NULL.
@@ -179,25 +172,6 @@ static void explain_integral(FILE *to, const char *whose, const iso_integral *i,
     if (!i->claimed && (!i->holds || i->holds(f)) == wanted) fprintf(to, "  %-5s %-10s %s\n", whose, i->name, i->doc);
 }
 
-static void explain_of_effects(FILE *to, const iso_system *system, const iso_problem *f, bool wanted)
-{
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_integral *i = iso_effect_integrals_of(iso_effect_list[e], system); i && i->name; i++)
-            if (f->effects.on[e]) explain_integral(to, system->name, i, f, wanted);
-}
-
-/* Those that the scene itself claims. */
-static void explain_claims(FILE *to, const iso_problem *f)
-{
-    const iso_integral *list[ISO_MAX_INTEGRALS];
-    const int count = iso_integrals_holding(&iso_system_ball, f, list, ISO_MAX_INTEGRALS);
-    int claims = 0;
-    for (int i = 0; i < count; i++)
-        if (list[i]->claimed)
-            fprintf(to, "%s %s", claims++ ? "" : "integrals that the scene claims\n ", list[i]->name);
-    if (claims > 0) fprintf(to, "   watched by check, compare, plot and view; nobody has proved them\n");
-}
-
 /* The integrals of both models. Without a twin: of the integrated model alone. */
 static void explain_integrals(FILE *to, const iso_orbit *orbit)
 {
@@ -209,9 +183,18 @@ static void explain_integrals(FILE *to, const iso_orbit *orbit)
             for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++)
                 if (!only || iso_systems[s] == only) explain_integral(to, iso_systems[s]->name, i, f, wanted);
         for (int s = 0; iso_systems[s]; s++)
-            if (!only || iso_systems[s] == only) explain_of_effects(to, iso_systems[s], f, wanted);
+            for (int e = 0; e < ISO_EFFECTS && (!only || iso_systems[s] == only); e++)
+                for (const iso_integral *i = iso_effect_integrals_of(iso_effect_list[e], iso_systems[s]);
+                     i && i->name; i++)
+                    if (f->effects.on[e]) explain_integral(to, iso_systems[s]->name, i, f, wanted);
     }
-    explain_claims(to, f);
+    const iso_integral *list[ISO_MAX_INTEGRALS];
+    const int count = iso_integrals_holding(&iso_system_ball, f, list, ISO_MAX_INTEGRALS);
+    int claims = 0;
+    for (int i = 0; i < count; i++)
+        if (list[i]->claimed)
+            fprintf(to, "%s %s", claims++ ? "" : "integrals that the scene claims\n ", list[i]->name);
+    if (claims > 0) fprintf(to, "   watched by check, compare, plot and view; nobody has proved them\n");
 }
 
 /* Seconds for one right-hand side: the least of several rounds. */
@@ -257,7 +240,8 @@ static iso_status explain(iso_context *ctx, FILE *to, const iso_scene *scene, co
     explain_effects(to, orbit);
     explain_map(to, &scene->params, orbit);
     fprintf(to, "integrability\n  %s: %s\n\n", iso_integrability_name(integrable.kind), integrable.why);
-    explain_section(to, orbit);
+    if (iso_orbit_has_twin(orbit) || iso_orbit_energy(orbit) != 0)
+        fprintf(to, "section\n  %s\n\n", iso_section_of(orbit, ISO_AXIS_AUTO).words);
     fprintf(to, "closed solution (--backend exact)\n  %s%s\n\n", kind ? "any time at the same cost: " : "",
             kind ? kind : why);
     explain_states(to, scene, orbit, columns, count);
@@ -286,55 +270,31 @@ static const iso_field fields[] = {
     ISO_FIELD_END,
 };
 
-static void free_explanation(void *found)
-{
-    free((char *)((explanation *)found)->text);
-    free(found);
-}
-
-static iso_status fill(iso_context *ctx, const iso_scene *scene, explanation *e)
-{
-    iso_orbit *orbit;
-    int columns[ISO_MAX_COLUMNS];
-    iso_memory memory;
-    const int count = iso_scene_column_list(scene, columns);
-    ISO_TRY(iso_scene_orbit(ctx, scene, columns, count, &orbit));
-    *e = (explanation){.backend = iso_backend_name((int)iso_orbit_backend(orbit)),
-                       .method = iso_orbit_exact(orbit) ? NULL : iso_orbit_method(orbit)->name,
-                       .twin = iso_orbit_has_twin(orbit),
-                       .integrability = iso_integrability_name(integrability_of(scene, orbit).kind),
-                       .rows = iso_scene_rows(scene)};
-    FILE *to = iso_memory_open(&memory);
-    iso_status status = to ? explain(ctx, to, scene, orbit, columns, count) : ISO_OK;
-    e->text = iso_memory_close(to, &memory);
-    if (!e->text) status = iso_context_no_memory(ctx, "words");
-    iso_orbit_free(orbit);
-    return status;
-}
-
 static iso_status run(iso_context *ctx, const iso_study_subject *subject, const void *options,
                       iso_study_result *result)
 {
     iso_scene scene = *subject->scene;
-    explanation *e = iso_study_keep(result, calloc(1, sizeof *e), fields, free_explanation);
+    iso_orbit *orbit;
+    int columns[ISO_MAX_COLUMNS];
+    iso_memory memory;
+    explanation *e = iso_study_keep(result, calloc(1, sizeof *e), fields, free);
     if (!e) return iso_context_no_memory(ctx, "words");
     ISO_TRY(iso_scene_apply(ctx, &((const iso_scene_request *)options)->change, &scene));
-    ISO_TRY(fill(ctx, &scene, e));
-    return iso_study_table(ctx, "explain", &scene, fields, e, NULL, &result->table[0]);
+    const int count = iso_scene_column_list(&scene, columns);
+    ISO_TRY(iso_scene_orbit(ctx, &scene, columns, count, &orbit));
+    *e = (explanation){.backend = iso_backend_name((int)iso_orbit_backend(orbit)),
+                       .method = iso_orbit_exact(orbit) ? NULL : iso_orbit_method(orbit)->name,
+                       .twin = iso_orbit_has_twin(orbit),
+                       .integrability = iso_integrability_name(integrability_of(&scene, orbit).kind),
+                       .rows = iso_scene_rows(&scene)};
+    FILE *to = iso_memory_open(&memory);
+    iso_status status = to ? explain(ctx, to, &scene, orbit, columns, count) : ISO_OK;
+    e->text = result->text = iso_memory_close(to, &memory);
+    iso_orbit_free(orbit);
+    if (!e->text) return iso_context_no_memory(ctx, "words");
+    return status == ISO_OK ? iso_study_table(ctx, "explain", &scene, fields, e, NULL, &result->table[0]) : status;
 }
 
-static void print_explanation(FILE *to, const iso_scene *scene, const void *options, const iso_study_result *result)
-{
-    (void)scene, (void)options;
-    fputs(((const explanation *)result->found)->text, to);
-}
-
-const iso_study iso_explain_study = {"explain",
-                                     "say what would be simulated and why, without doing it",
-                                     iso_scene_change_option,
-                                     sizeof(iso_scene_request),
-                                     begin,
-                                     .run = run,
-                                     .of = ISO_STUDY_OF_SCENE,
-                                     .fields = fields,
-                                     .print = print_explanation};
+const iso_study iso_explain_study = {ISO_STUDY_AS("explain", iso_scene_request, iso_scene_change_option,
+                                                  "say what would be simulated and why, without doing it"),
+                                     .run = run, .of = ISO_STUDY_OF_SCENE, .fields = fields};

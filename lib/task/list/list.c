@@ -1,11 +1,60 @@
-/* list.c - what there is, in words: systems, backends, effects, methods and so on (see list_impl.h). */
+/* list.c - what there is, as text: systems, backends, effects, methods and so on; and the lists of studies
+ * (study/study.h) and of the tables that they make (see list_impl.h). */
 #include "task/list/list_impl.h"
 
 #include <string.h>
 
 #include "base/names_impl.h"
+#include "instrument/chaos/chaos.h"
+#include "instrument/frequencies/frequencies.h"
+#include "instrument/integrals/integrals.h"
+#include "instrument/periodic/continuation.h"
+#include "instrument/periodic/periodic.h"
+#include "instrument/periodic/stability_chart.h"
+#include "instrument/section/section.h"
+#include "instrument/separatrix/separatrix.h"
 #include "method/methods_impl.h"
 #include "orbit/orbit_impl.h"
+#include "study/fields_impl.h"
+#include "study/options_impl.h"
+#include "task/cost/cost.h"
+
+/* --- studies and tables ----------------------------------------------------------------------------------------- */
+
+#define ISO_STUDY_ROW(name) &iso_##name##_study,
+
+const iso_study *iso_study_at(int i)
+{
+    static const iso_study *const studies[] = {ISO_STUDY_LIST(ISO_STUDY_ROW)};
+    return i >= 0 && i < (int)(sizeof studies / sizeof *studies) ? studies[i] : NULL;
+}
+
+const iso_study *iso_study_find(const char *name)
+{
+    int i = 0;
+    while (iso_study_at(i) && strcmp(iso_study_at(i)->name, name) != 0) i++;
+    return iso_study_at(i);
+}
+
+const iso_result_table *iso_result_table_at(int i)
+{
+    static const iso_result_table tables[] = {
+        {"section", "a crossing of the section", iso_section_fields, false},
+        {"chaos", "an orbit", iso_chaos_orbit_fields, false},
+        {"periodic", "a periodic orbit", iso_periodic_orbit_fields, false},
+        {"periodic follow", "a point of a branch, or an event on it", iso_branch_row_fields, false},
+        {"periodic chart", "a point of the chart, or of a border in it", iso_chart_row_fields, false},
+        {"splitting", "a value of k or of the level", iso_separatrix_fields, false},
+        {"cost", "a backend with a method and a tolerance", iso_cost_cell_fields, false},
+        {"check", "a residual", iso_checked_fields, true},
+        {"chaos indicators", "a turn of the scene's own orbit", iso_indicator_fields, true},
+        {"compare", "a time of the scene", iso_difference_fields, true},
+        {"section area", "an orbit by one model", iso_section_area_fields, true},
+    };
+    return i >= 0 && i < (int)(sizeof tables / sizeof *tables) ? &tables[i] : NULL;
+}
+
+/* --- topics ----------------------------------------------------------------------------------------------------- */
 
 static void list_systems(FILE *to)
 {
@@ -39,40 +88,30 @@ static void list_integrals(FILE *to)
             fprintf(to, "  %-18s %-10s %s\n", iso_effect_list[e]->name, i->name, i->doc);
 }
 
-/* A vector has its length behind its name, a key that may be left out is in brackets. */
-static void list_numbers(FILE *to, const iso_effect *effect)
-{
-    if (effect->numbers) fprintf(to, "  %-22s numbers:", "");
-    if (effect->expressions)
-        fprintf(to, " %s [parameters]", effect->expressions_key ? effect->expressions_key : effect->expressions[0]);
-    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
-        if (n->hidden) continue;
-        fprintf(to, n->required ? " %s" : " [%s", n->name);
-        if (n->count == 9)
-            fprintf(to, "(3x3)");
-        else if (n->count > 1)
-            fprintf(to, "(%d)", n->count);
-        fprintf(to, n->required ? "" : "]");
-    }
-    if (effect->numbers) fprintf(to, "\n");
-}
-
-/* Whether a point has it, and how its scenes call it. */
-static void list_image(FILE *to, const iso_effect *effect)
-{
-    const char *broken = iso_effect_why_broken(effect), *name = effect->point_name;
-    fprintf(to, "  %-22s isomorphism: %s%s%s%s%s\n", "", broken ? "lost, " : "kept", broken ? broken : "",
-            name ? "; a scene of a point calls it '" : "", name ? name : "", name ? "'" : "");
-}
-
 static void list_effects(FILE *to)
 {
     for (int e = 0; e < ISO_EFFECTS; e++) {
         const iso_effect *effect = iso_effect_list[e];
         fprintf(to, "  %-22s %s\n", effect->name, effect->doc);
-        list_numbers(to, effect);
+        /* a vector has its length behind its name, a key that may be left out is in brackets */
+        if (effect->numbers) fprintf(to, "  %-22s numbers:", "");
+        if (effect->expressions)
+            fprintf(to, " %s [parameters]",
+                    effect->expressions_key ? effect->expressions_key : effect->expressions[0]);
+        for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
+            if (n->hidden) continue;
+            fprintf(to, n->required ? " %s" : " [%s", n->name);
+            if (n->count == 9)
+                fprintf(to, "(3x3)");
+            else if (n->count > 1)
+                fprintf(to, "(%d)", n->count);
+            fprintf(to, n->required ? "" : "]");
+        }
+        if (effect->numbers) fprintf(to, "\n");
         if (effect->states) fprintf(to, "  %-22s states: %s\n", "", effect->states_doc);
-        list_image(to, effect);
+        const char *broken = iso_effect_why_broken(effect), *name = effect->point_name; /* of a scene of a point */
+        fprintf(to, "  %-22s isomorphism: %s%s%s%s%s\n", "", broken ? "lost, " : "kept", broken ? broken : "",
+                name ? "; a scene of a point calls it '" : "", name ? name : "", name ? "'" : "");
     }
 }
 
@@ -167,6 +206,6 @@ iso_status iso_list_print(iso_context *ctx, const char *topic, FILE *to)
         topics[i].list(to);
     }
     if (listed) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "topic", "list: nothing is called '%s'; %s", topic,
-                            iso_suggest_word(suggested, topic, iso_list_topic));
+    return ISO_FAIL_ARGUMENT(ctx, "topic", "list: nothing is called '%s'; %s", topic,
+                             iso_suggest_word(suggested, topic, iso_list_topic));
 }

@@ -2,14 +2,14 @@
 #include "rivals.h"
 
 const rival rivals[] = {
-    {"GSL rk8pd", rival_gsl_rk8pd, false},
+    {"GSL rk8pd", rival_gsl_rk8pd},
 #ifdef RIVAL_ODEINT
-    {"odeint fehlberg78", rival_odeint_fehlberg, false},
-    {"odeint bulirsch_stoer", rival_odeint_stoer, false},
+    {"odeint fehlberg78", rival_odeint_fehlberg},
+    {"odeint bulirsch_stoer", rival_odeint_stoer},
 #endif
-    {"ARKODE fehlberg_13_7_8", rival_arkode_fehlberg, true},
-    {"CVODE adams", rival_cvode_adams, true},
-    {NULL, NULL, false},
+    {"ARKODE fehlberg_13_7_8", rival_arkode_fehlberg},
+    {"CVODE adams", rival_cvode_adams},
+    {NULL, NULL},
 };
 
 const rival_walker rival_walkers[] = {
@@ -19,18 +19,4 @@ const rival_walker rival_walkers[] = {
     {"odeint bulirsch_stoer", rival_follow_stoer},
 #endif
     {NULL, NULL},
-};
-
-#define ORDERS(vectors, solve)                                                                                       \
-    {vectors, 12, solve}, {vectors, 14, solve}, {vectors, 16, solve}, {vectors, 18, solve},                          \
-    {                                                                                                                \
-        vectors, 20, solve                                                                                           \
-    }
-
-const yardstick yardsticks[] = {
-#ifdef YARDSTICKS
-    ORDERS("avx512", yardstick_avx512),
-    ORDERS("avx2", yardstick_avx2),
-#endif
-    {NULL, 0, NULL},
 };

@@ -19,11 +19,10 @@ extern "C" {
 
 typedef bool rival_solve(const rival_problem *p, double tolerance, double end, double y[6]);
 
-/* The list ends with the name NULL. `slow`: known to take several times as long as the others. */
+/* The list ends with the name NULL. */
 typedef struct rival {
     const char *name;
     rival_solve *solve;
-    bool slow;
 } rival;
 
 extern const rival rivals[];
@@ -32,24 +31,6 @@ rival_solve rival_gsl_rk8pd, rival_cvode_adams, rival_arkode_fehlberg;
 rival_solve rival_odeint_fehlberg, rival_odeint_stoer; /* Boost, where it was found */
 
 enum { RIVAL_STEPS = 10000 }; /* in a time of 1: who needs more gives up */
-
-/* --- many points in lanes: the yardstick of batches
- * ----------------------------------------------------------------- */
-
-/* Follows y[i] = (M, g), i < count, by series of one order to the time `end` of the ball. */
-typedef void yardstick_solve(const rival_problem *p, double tolerance, int order, double end, int count,
-                             double y[][6]);
-
-typedef struct yardstick {
-    const char *vectors; /* as in iso_batch_options */
-    int order;
-    yardstick_solve *solve;
-} yardstick;
-
-/* The list ends with NULL; it is empty where the processor is no x86. */
-extern const yardstick yardsticks[];
-
-yardstick_solve yardstick_avx512, yardstick_avx2;
 
 /* --- an orbit at any time: the ends of steps are kept, and one shorter step leads from there ---------------------- */
 

@@ -1,13 +1,49 @@
-/* chart.c - where rotations about the axes of the least and of the greatest moment are stable.
+/* periodic.c - what is found of families of periodic orbits: branches, and charts of stability.
  *
- * Tables: cells (side: 1: of the least moment, 2: of the greatest; class; left, right, bottom, top) and borders (side,
- * k, up), where a trace is 2 or -2. The cells of a side cover the grid; neighbours of one class are one cell.
+ * The kind "periodic follow", layout "branch", a bifurcation diagram: trace and place of followed periodic orbits over
+ * what varies. Tables: points (branch, at, trace, place: 2 u/pi on the symmetry line) and events (the same, and event: a
+ * word), which are those of the table but ends of branches. Lines: branches, how many; over, what varies.
+ *
+ * The kind "periodic chart", layout "chart": where rotations about the axes of the least and of the greatest moment are
+ * stable. Tables: cells (side: 1: of the least moment, 2: of the greatest; class; left, right, bottom, top) and borders
+ * (side, k, up), where a trace is 2 or -2. The cells of a side cover the grid; neighbours of one class are one cell.
  * Classes: 0: stable; -1: unstable, the trace T < -2; 1: unstable, T > 2; 2: there is no such rotation.
  * Lines: up, what varies beside k; none: whether a cell has class 2.
  */
 #include <math.h>
 
 #include "picture/picture_impl.h"
+
+enum { OVER = 3 }; /* the column of what varies */
+
+static iso_status make_branch(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
+{
+    const iso_record *r = q->table[0];
+    iso_record *points, *events;
+    double most = 0;
+    picture->layout = "branch";
+    ISO_TRY(iso_picture_add(ctx, picture, "points", "branch at trace place", &points));
+    ISO_TRY(iso_picture_add(ctx, picture, "events", "branch at trace place event'", &events));
+    for (size_t i = 0; i < iso_record_rows(r); i++) {
+        const bool end = iso_picture_is(r, i, "event", "end"), point = iso_picture_is(r, i, "event", "");
+        double row[] = {iso_picture_number(r, i, "branch"), iso_picture_at(r, i, OVER),
+                        iso_picture_number(r, i, "trace"), iso_picture_number(r, i, "u") / acos(0), 0};
+        if (end) continue;
+        if (!(row[0] >= 1 && row[0] <= (double)iso_record_rows(r) && row[0] == floor(row[0])))
+            return ISO_FAIL_INPUT(ctx, "branch", "no picture: row %zu has no number of a branch", i + 1);
+        most = fmax(most, row[0]);
+        if (!point)
+            ISO_TRY(iso_record_intern(ctx, events, iso_record_word(r, iso_picture_number(r, i, "event")), &row[4]));
+        ISO_TRY(iso_record_add(ctx, point ? points : events, 1, row)); /* an event repeats a point */
+    }
+    ISO_TRY(iso_picture_set(ctx, picture, "branches", &most));
+    return iso_picture_line(ctx, picture, "over", "%s", iso_picture_symbol(iso_record_name(r, OVER)));
+}
+
+const iso_picture_maker iso_picture_branch = {
+    "periodic follow", "Periodic orbits followed", {"branch", "u", "trace", "event"}, .make = make_branch};
+
+/* --- charts ------------------------------------------------------------------------------------------------------ */
 
 enum { K = 1, UP = 2 }; /* columns */
 
@@ -54,7 +90,7 @@ static iso_status add_cells(iso_context *ctx, const iso_record *r, int side, int
     return ISO_OK;
 }
 
-static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
+static iso_status make_chart(iso_context *ctx, const iso_picture_request *q, iso_picture *picture)
 {
     static const char *const trace[] = {"least", "greatest"};
     const iso_record *r = q->table[0];
@@ -77,8 +113,8 @@ static iso_status make(iso_context *ctx, const iso_picture_request *q, iso_pictu
         }
     }
     ISO_TRY(iso_picture_set(ctx, picture, "none", (double[]){none}));
-    return iso_picture_say(ctx, picture, "up", "%s", iso_picture_symbol(iso_record_name(r, UP)));
+    return iso_picture_line(ctx, picture, "up", "%s", iso_picture_symbol(iso_record_name(r, UP)));
 }
 
 const iso_picture_maker iso_picture_chart = {
-    "periodic chart", "Where rotations are stable", {"kind", "k", "least", "greatest"}, .make = make};
+    "periodic chart", "Where rotations are stable", {"kind", "k", "least", "greatest"}, .make = make_chart};
