@@ -35,7 +35,8 @@ static const struct {
              {"splitting_x", "place x of the splitting", NULL, "splitting_x_error"},
              {"frequencies_f1_t", "frequency 1, in t", NULL, "frequencies_f1_error"},
              {"frequencies_f2_t", "frequency 2, in t", NULL, "frequencies_f2_error"},
-             {"frequencies_rotation", "rotation number", NULL, NULL},
+             {"frequencies_ratio", "frequency ratio", NULL, NULL},
+             {"frequencies_rotation", "frequency ratio", NULL, NULL}, /* of 0.3 and before */
              {"rotations_trace1", "trace of the rotation about axis 1", NULL, "rotations_error1"},
              {"rotations_trace2", "trace of the rotation about axis 2", NULL, "rotations_error2"},
              {"rotations_trace3", "trace of the rotation about axis 3", NULL, "rotations_error3"},

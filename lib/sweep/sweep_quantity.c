@@ -96,7 +96,7 @@ static const iso_sweep_quantity special[] = {
      .chunk = chaos_chunk, .has = chaos_has, .check = chaos_check, .together = chaos_together,
      VECTORS(iso_chaos_request, how.vectors)},
     {"frequencies", &iso_frequencies_study,
-     "rotation=rotation_number " FREQUENCY("1")
+     "ratio=frequency_ratio " FREQUENCY("1")
          FREQUENCY("2") "f1_error=angles1_error_t f2_error=angles2_error_t "
                         "verdict=estimate_verdict estimated=solution h F=integral_value",
      .points = 2},

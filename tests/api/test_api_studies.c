@@ -112,8 +112,8 @@ static void check_orbits(const iso_scene *scene, const iso_scene *same)
     iso_frequencies_options turns = iso_frequencies_defaults();
     turns.turns = 30;
     gsl_test(ask(scene, "frequencies", "turns=30") != ISO_OK ||
-                 iso_frequencies_find(ctx, same, &turns, &f) != ISO_OK || line("rotation_number") != f.rotation,
-             "frequencies: the rotation number");
+                 iso_frequencies_find(ctx, same, &turns, &f) != ISO_OK || line("frequency_ratio") != f.ratio,
+             "frequencies: the frequency ratio");
     iso_chaos *chaos;
     iso_chaos_options o = iso_chaos_defaults();
     o.turns = 50;

@@ -123,10 +123,10 @@ run 0 frequencies --help
 grep -q -e '--estimate' out || fail "frequencies --help has no --estimate"
 run 0 frequencies closed.yaml --json
 grep -q '"solution": "closed"' out || fail "there is no closed solution to compare with"
-sed -n 's/.*"rotation_number": \([0-9.]*\).*/\1/p' out >rotation
+sed -n 's/.*"frequency_ratio": \([0-9.]*\).*/\1/p' out >rotation
 run 0 frequencies closed.yaml --estimate --turns 100 --json
 grep -q '"solution": "estimated"' out || fail "--estimate does not estimate"
-sed -n 's/.*"rotation_number": \([0-9.]*\).*/\1/p' out >>rotation
+sed -n 's/.*"frequency_ratio": \([0-9.]*\).*/\1/p' out >>rotation
 awk '{ r[NR] = $1 } END { exit !(NR == 2 && (r[1] * r[2] - 1) ^ 2 < 1e-16) }' rotation ||
     fail "--estimate finds other frequencies" # its first one is the second
 

@@ -263,7 +263,7 @@ def twin_and_judge(page):
     page.evaluate("void (judge.SHARES = [24])")
     slide(page, -1)
     page.wait("lab.shared === lab.pending")
-    check("a regular orbit has a rotation number", "Rotation number: 1.2342377" in text(page, "lab-words") and
+    check("a regular orbit has a frequency ratio", "Frequency ratio: 1.2342377" in text(page, "lab-words") and
           max(page.evaluate("[...controls.orbit.near]")) < 1e-3, text(page, "lab-words"))
 
 

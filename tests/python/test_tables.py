@@ -93,7 +93,7 @@ class Lines(Case):
     def test_results(self):
         found = isoroll.frequencies(BALL)
         self.assertEqual(found.angles[0]["frequency"]["t"], found.lines["angles.0.frequency.t"])
-        self.assertEqual(found.rotation_number, found.lines["rotation_number"])
+        self.assertEqual(found.frequency_ratio, found.lines["frequency_ratio"])
         self.assertIn("<pre>", found._repr_html_())
         self.assertLess(len(repr(found)), 250)
         with self.assertRaises(AttributeError):

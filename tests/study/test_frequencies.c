@@ -195,9 +195,9 @@ static void check_regular(void)
     must(iso_frequencies_find(ctx, &scene, &o, &f), "an estimate");
     gsl_test(!f.estimated || f.estimate.verdict != ISO_REGULAR || f.angles != 2, "k = 0.6: %s; %s", f.motion, f.why);
     gsl_test(!(f.estimate.drift < 1e-10 && f.estimate.unexplained < 1e-6), "its drift: %.1e", f.estimate.drift);
-    const double measured = section(&scene, f.estimate.axis, 1 / f.rotation, f.angle[0].period[ISO_CLOCK_T]);
-    gsl_test(!(fabs(measured * f.rotation - 1) < 1e-8), "its rotation number by a section: %.1e",
-             measured * f.rotation - 1);
+    const double measured = section(&scene, f.estimate.axis, 1 / f.ratio, f.angle[0].period[ISO_CLOCK_T]);
+    gsl_test(!(fabs(measured * f.ratio - 1) < 1e-8), "its rotation number by a section: %.1e",
+             measured * f.ratio - 1);
 }
 
 static void check_chaotic(void)
@@ -206,7 +206,7 @@ static void check_chaotic(void)
     const iso_frequencies_options o = iso_frequencies_defaults();
     const iso_scene scene = scene_from(0.3, (double[]){1, 2, 6}, (double[]){0.3, 1, 0.2}, (double[]){0.6, 0, 0.8});
     must(iso_frequencies_find(ctx, &scene, &o, &f), "an estimate");
-    gsl_test(f.estimate.verdict != ISO_CHAOTIC || f.resonances != 0 || !isnan(f.rotation),
+    gsl_test(f.estimate.verdict != ISO_CHAOTIC || f.resonances != 0 || !isnan(f.ratio),
              "k = 0.3, next to an unstable rotation: %s, drift %.1e", f.motion, f.estimate.drift);
 }
 

@@ -1,5 +1,5 @@
 // judge.js - what the library finds out about the orbit of the laboratory while one watches: its verdict, its exponent or
-// its rotation number, and which part of the section is chaotic at this energy.
+// its frequency ratio, and which part of the section is chaotic at this energy.
 
 const judge = {
   helper: new Helper(),
@@ -46,7 +46,7 @@ const judge = {
         this.follow(this.told.exponent);
       } else if (verdict === "regular" && !page.alone) {
         const lines = await this.ask(number, "frequencies", scene, {});
-        this.tell({ rotation: Number(lines.rotation_number) });
+        this.tell({ rotation: Number(lines.frequency_ratio) });
       }
     } catch (error) {
       if (number === lab.pending) this.tell({ rotation: NaN });
@@ -71,7 +71,7 @@ const judge = {
     if (exponent > 0)
       return `${begin} Exponent: ${digits(exponent, 3)}${error > 0 ? ` ± ${digits(error, 1)}` : ""} per unit of t.`;
     if (verdict !== "regular") return begin;
-    return `${begin} Exponent: 0.${rotation > 0 ? ` Rotation number: ${digits(rotation, 8)}.` : ""}`;
+    return `${begin} Exponent: 0.${rotation > 0 ? ` Frequency ratio: ${digits(rotation, 8)}.` : ""}`;
   },
   wordsOfShare() {
     const { share, unshared } = this.told;

@@ -54,7 +54,7 @@ _RETURNS: Dict[str, Tuple[Callable[..., Any], str, str]] = {
     "chaos": (_chaos, "Chaos",
               "a Chaos: a row for each orbit, the scene's own first; its `share`, its `indicators`."),
     "frequencies": (_first, "Result",
-                    "a Result: numbers by the names of the command's --json, result.rotation_number, ..."),
+                    "a Result: numbers by the names of the command's --json, result.frequency_ratio, ..."),
     "periodic": (_first, "Union[Periodic, Branch, Chart]",
                  "a Periodic: a row for each orbit; with follow a Branch, with chart a Chart."),
     "splitting": (_first, "Splitting", "a Splitting: a row for each k or level."),

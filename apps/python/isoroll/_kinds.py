@@ -147,7 +147,7 @@ class Comparison(Table):
 class Result(Table):
     """A result without rows: what was found stands in its lines, by the names of the command's --json.
 
-    >>> isoroll.frequencies("scene.yaml").rotation_number
+    >>> isoroll.frequencies("scene.yaml").frequency_ratio
     >>> isoroll.frequencies("scene.yaml").angles[0]["frequency"]["t"]
 
     tree  all lines as dicts and lists: tree["angles"][0]["frequency"]["t"] is the line "angles.0.frequency.t"

@@ -1,6 +1,6 @@
 /* frequencies.c - the frequencies of a motion, see frequencies.h: from the closed solution where there is one, else
  * the estimate of frequencies_estimate.c; and what both share: the orbit at its start, where the motion lies in its
- * family, and what follows from two frequencies (rotation number, resonances). */
+ * family, and what follows from two frequencies (frequency ratio, resonances). */
 #include "instrument/frequencies/frequencies.h"
 #include "orbit/orbit_impl.h"
 
@@ -33,7 +33,7 @@ iso_status iso_frequencies_open(iso_context *ctx, const iso_scene *scene, const 
     const bool twin = !iso_effects_breaking(effects);
     *orbit = NULL;
     *f = (iso_frequencies){
-        .kind = ISO_EXACT_KINDS, .h = NAN, .eps = NAN, .H = NAN, .F = NAN, .c = NAN, .rotation = NAN};
+        .kind = ISO_EXACT_KINDS, .h = NAN, .eps = NAN, .H = NAN, .F = NAN, .c = NAN, .ratio = NAN};
     f->estimate.axis = -1;
     for (int i = 0; i < 2; i++) f->angle[i].drift = f->angle[i].action = NAN;
     for (int c = 0; c < ISO_CLOCKS; c++) {
@@ -64,9 +64,9 @@ void iso_frequencies_place(const iso_orbit *orbit, const iso_sample *start, iso_
     f->F *= iso_unit(iso_orbit_units(orbit), f->integral->dimension);
 }
 
-/* --- rotation number and resonances ----------------------------------------------------------------------------- */
+/* --- frequency ratio and resonances ----------------------------------------------------------------------------- */
 
-/* A fraction q/p near the rotation number. Frequencies from the closed solution are known to rounding. */
+/* A fraction q/p near the frequency ratio. Frequencies from the closed solution are known to rounding. */
 static iso_resonance resonance_of(const iso_frequencies *f, int p, int q)
 {
     iso_resonance r = {.p = p, .q = q, .gap = INFINITY, .met = true};
@@ -83,10 +83,10 @@ static iso_resonance resonance_of(const iso_frequencies *f, int p, int q)
     return r;
 }
 
-/* The convergents of the rotation number's continued fraction. */
+/* The convergents of the frequency ratio's continued fraction. */
 static void find_resonances(iso_frequencies *f)
 {
-    double rest = f->rotation;
+    double rest = f->ratio;
     int q = 1, p = 0, q_before = 0, p_before = 1; /* q/p, from 1/0 and 0/1 */
     while (f->resonances < ISO_MAX_RESONANCES && rest < 1e3) {
         const int whole = (int)floor(rest), q_next = whole * q + q_before, p_next = whole * p + p_before;
@@ -105,7 +105,7 @@ void iso_frequencies_finish(iso_frequencies *f)
     for (int i = 0; i < f->angles; i++)
         for (int c = 0; c < ISO_CLOCKS; c++) f->angle[i].period[c] = 2 * ISO_PI / f->angle[i].frequency[c];
     if (f->angles == 2 && (!f->estimated || (e->verdict != ISO_CHAOTIC && !(e->unexplained > MOST_UNEXPLAINED)))) {
-        f->rotation = f->angle[0].frequency[ISO_CLOCK_T] / f->angle[1].frequency[ISO_CLOCK_T];
+        f->ratio = f->angle[0].frequency[ISO_CLOCK_T] / f->angle[1].frequency[ISO_CLOCK_T];
         find_resonances(f);
     }
     /* An orbit is closed if it has one angle, or if a resonance is met exactly, which an estimate cannot decide. */

@@ -2,7 +2,7 @@
  *
  *     iso_frequencies f;
  *     iso_frequencies_options o = iso_frequencies_defaults();
- *     status = iso_frequencies_find(ctx, &scene, &o, &f);      f.angle[0].frequency[ISO_CLOCK_T], f.rotation
+ *     status = iso_frequencies_find(ctx, &scene, &o, &f);      f.angle[0].frequency[ISO_CLOCK_T], f.ratio
  *
  * A motion on a torus has two angles that grow uniformly in each of the clocks t, tau and s. Where there is a closed
  * solution (exact/exact.h), it has their frequencies and actions. Elsewhere the frequencies are estimated:
@@ -114,8 +114,8 @@ typedef struct iso_frequencies {
     iso_angle angle[2];
     /* angle[0].frequency/angle[1].frequency, the same in every clock; NaN: the motion is chaotic, or two frequencies
      * explain less than half of it. */
-    double rotation;
-    int resonances; /* best approximations of `rotation` by fractions q/p with p, q <= 100 */
+    double ratio;
+    int resonances; /* best approximations of `ratio` by fractions q/p with p, q <= 100 */
     iso_resonance resonance[ISO_MAX_RESONANCES];
     /* The period of a closed orbit: one angle, or a resonance that is met; NaN: it is open, or only estimated. */
     double closed[ISO_CLOCKS];

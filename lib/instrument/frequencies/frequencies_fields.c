@@ -113,7 +113,7 @@ const iso_field iso_frequencies_fields[] = {
     ISO_GROUP("integral", integral_fields, "beyond the energy", .there = has_integral),
     FIELD("c", c, "", "constant of the separation"),
     LIST("angles", angle, angles, angle_fields, "of the torus"),
-    FIELD("rotation_number", rotation, "", "frequency 1 by frequency 2"),
+    FIELD("frequency_ratio", ratio, "", "frequency 1 by frequency 2"),
     LIST("resonances", resonance, resonances, resonance_fields, "that are near"),
     LIST("separatrices", separatrix, separatrices, separatrix_fields, "that are near"),
     FIELD("closed_orbit", closed, "time", "period of a closed orbit", .word = iso_clock_word),
@@ -152,7 +152,7 @@ const iso_option iso_frequencies_option[] = {
 };
 
 const iso_study iso_frequencies_study = {"frequencies",
-                                         "compute frequencies, actions, rotation number and near resonances",
+                                         "compute frequencies, their ratio, actions and near resonances",
                                          iso_frequencies_option,
                                          sizeof(iso_frequencies_options),
                                          begin,

@@ -20,7 +20,7 @@ iso_status iso_frequencies_open(iso_context *ctx, const iso_scene *scene, const 
 /* h, eps, H and F from the orbit at its start. */
 void iso_frequencies_place(const iso_orbit *orbit, const iso_sample *start, iso_frequencies *f);
 
-/* From the frequencies: periods, rotation number, resonances, period of a closed orbit. */
+/* From the frequencies: periods, frequency ratio, resonances, period of a closed orbit. */
 void iso_frequencies_finish(iso_frequencies *f);
 
 /* --- the lines of a signal (spectrum.c) ------------------------------------------------------------------------- */

@@ -31,8 +31,8 @@ static void print_head(FILE *to, const iso_scene *scene, const iso_frequencies *
         fputs("  a chaotic motion has no fixed frequencies: the numbers below hold for this orbit only\n", to);
     if (f->estimate.unexplained > 1e-4)
         fprintf(to, "  part of the amplitudes that two frequencies do not explain: %.2g\n", f->estimate.unexplained);
-    if (f->angles == 2 && isnan(f->rotation) && f->estimate.verdict != ISO_CHAOTIC)
-        fputs("  that is most of them: there is no rotation number\n", to);
+    if (f->angles == 2 && isnan(f->ratio) && f->estimate.verdict != ISO_CHAOTIC)
+        fputs("  that is most of them: there is no frequency ratio\n", to);
 }
 
 /* One line: a number in each clock, - where it is not known. */
@@ -49,7 +49,7 @@ static void print_clocks(FILE *to, const char *what, const double x[ISO_CLOCKS])
 
 static void print_resonances(FILE *to, const iso_frequencies *f)
 {
-    if (!isnan(f->rotation)) fprintf(to, "\nrotation number, frequency 1 / frequency 2: %.15g\n", f->rotation);
+    if (!isnan(f->ratio)) fprintf(to, "\nfrequency ratio, frequency 1 / frequency 2: %.15g\n", f->ratio);
     if (f->resonances > 0) {
         fputs("near resonances: p times frequency 1 is almost q times frequency 2\n", to);
         iso_table_begin(to, 1);
