@@ -57,20 +57,17 @@ static iso_status shard_of_slurm(iso_context *ctx, iso_sweep_shard *shard)
  * again. */
 static iso_status read_shard(iso_context *ctx, const char *text, iso_sweep_shard *shard)
 {
-    double i, n;
     *shard = (iso_sweep_shard){0, 1};
-    if (!text) return ISO_OK;
+    if (!text || iso_sweep_shard_read(text, shard)) return ISO_OK;
     if (strcmp(text, "slurm") == 0) return shard_of_slurm(ctx, shard);
-    char first[24];
-    const char *slash = strchr(text, '/'), *most = slash ? slash + 1 : "";
-    const bool task = strncmp(text, "slurm/", 6) == 0;
-    snprintf(first, sizeof first, "%.*s", (int)strcspn(text, "/"), text);
-    if (iso_set_whole(&n, most) &&
-        (task ? from_environment("SLURM_ARRAY_TASK_ID", NAN, &i) : iso_set_whole(&i, first)) && i >= 1 && i <= n)
-        return *shard = (iso_sweep_shard){(size_t)i - 1, (size_t)n}, ISO_OK;
-    if (task)
-        return ISO_FAIL_ARGUMENT(ctx, "shard", "--shard slurm/%s: SLURM_ARRAY_TASK_ID must be a number from 1 to %s",
-                                 most, most);
+    if (strncmp(text, "slurm/", 6) == 0) {
+        char of_task[64];
+        const char *task = getenv("SLURM_ARRAY_TASK_ID");
+        snprintf(of_task, sizeof of_task, "%s/%s", task ? task : "", text + 6);
+        if (iso_sweep_shard_read(of_task, shard)) return ISO_OK;
+        return ISO_FAIL_ARGUMENT(ctx, "shard", "--shard %s: SLURM_ARRAY_TASK_ID must be a number from 1 to %s", text,
+                                 text + 6);
+    }
     return ISO_FAIL_ARGUMENT(ctx, "shard", "--shard '%s': expected i/n with 1 <= i <= n, slurm or slurm/n", text);
 }
 

@@ -212,11 +212,14 @@ ISO_API iso_status iso_picture_of(iso_context *ctx, const iso_record *const tabl
 /* Measures all points of a sweep (lib/doc/formats.md).
  * path: of its file; with text, what messages call it, and in whose folder a scene's file is sought.
  * text: the sweep in YAML, `length` bytes; NULL: the file is read.
- * threads: 0: as many as there are processors.
+ * options: NULL, or lines NAME=VALUE: threads=N, output=FILE (.csv or .h5: rows go there as they come, not to memory),
+ *   resume=true (go on with what there is of this file), shard=i/n (part i of n alone). As the command has them.
  * record: what the file of `isoroll sweep` holds, a row for each point in order. Points that fail have a status and a
  *   reason. After a failure or a stop on the way it has the points of finished chunks, and is NULL if there is none.
- * Errors: those of iso_sweep_read, iso_sweep_create and iso_sweep_run. */
-ISO_API iso_status iso_sweep_ask(iso_context *ctx, const char *path, const char *text, size_t length, int threads,
+ *   With an output it is then NULL, and the message names the file in which they are.
+ * Errors: those of iso_sweep_read, iso_sweep_create, iso_sweep_run; ISO_FILE_TROUBLE about the output;
+ * ISO_BAD_ARGUMENT about an option. */
+ISO_API iso_status iso_sweep_ask(iso_context *ctx, const char *path, const char *text, size_t length, const char *options,
                                  void (*progress)(void *data, double part), void *data, iso_record **record);
 
 /* What `isoroll explain` says of a sweep, as the text of the record (iso_study_text); for this a few points are

@@ -35,6 +35,7 @@ typedef struct iso_sweep_shard {
 } iso_sweep_shard;
 
 /* Its chunks, its points, and the number in the sweep of its i-th point. */
+bool iso_sweep_shard_read(const char *text, iso_sweep_shard *shard); /* "i/n", from 1 on; false: it is none */
 size_t iso_sweep_shard_chunks(const iso_sweep_head *head, iso_sweep_shard shard);
 size_t iso_sweep_shard_points(const iso_sweep_head *head, iso_sweep_shard shard);
 size_t iso_sweep_shard_point(const iso_sweep_head *head, iso_sweep_shard shard, size_t i);

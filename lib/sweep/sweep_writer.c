@@ -16,9 +16,21 @@
 #include <string.h>
 
 #include "base/fold_impl.h"
+#include "study/options_impl.h"
 #include "sweep/sweep_store_impl.h"
 
 /* --- shards, failures, names ------------------------------------------------------------------------------------- */
+
+bool iso_sweep_shard_read(const char *text, iso_sweep_shard *shard)
+{
+    double i, n;
+    char first[24];
+    const char *slash = strchr(text, '/');
+    snprintf(first, sizeof first, "%.*s", (int)strcspn(text, "/"), text);
+    if (!slash || !iso_set_whole(&n, slash + 1) || !iso_set_whole(&i, first) || i < 1 || i > n) return false;
+    *shard = (iso_sweep_shard){(size_t)i - 1, (size_t)n};
+    return true;
+}
 
 size_t iso_sweep_shard_chunks(const iso_sweep_head *head, iso_sweep_shard shard)
 {

@@ -202,10 +202,10 @@ static void check_subjects(const iso_scene *scene)
     "scene: {reduced: {k: 0.5, J: [1.4, 2.1, 3.0]}, initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, "   \
     "-0.3, -0.225]}, time: {end: 2}}\nvary: {k: [0.5, 0, {from: 0.6, to: 2, count: 28}]}\nmeasure: {rotations: "     \
     "{}}\nchunk: 4\n"
-static iso_status sweep(const char *text, int threads, iso_record **record)
+static iso_status sweep(const char *text, const char *options, iso_record **record)
 {
     bool wrong = false;
-    const iso_status status = iso_sweep_ask(ctx, "a sweep", text, strlen(text), threads, look, &wrong, record);
+    const iso_status status = iso_sweep_ask(ctx, "a sweep", text, strlen(text), options, look, &wrong, record);
     gsl_test(wrong, "sweep: progress is in [0, 1]");
     return status;
 }
@@ -218,7 +218,8 @@ static bool stop(void *data)
 static void check_sweep(const iso_scene *scene)
 {
     iso_record *one = NULL, *two = NULL, *none = NULL;
-    gsl_test(sweep(SWEEP, 1, &one) != ISO_OK || sweep(SWEEP, 2, &two) != ISO_OK || iso_record_rows(one) != 30,
+    gsl_test(sweep(SWEEP, "threads=1", &one) != ISO_OK || sweep(SWEEP, "threads=2", &two) != ISO_OK ||
+                 iso_record_rows(one) != 30,
              "sweep: %s", iso_context_message(ctx));
     if (!one || !two) return;
     int wrong = ask(scene, "periodic", "period=1") != ISO_OK; /* the command of this quantity */
@@ -228,15 +229,33 @@ static void check_sweep(const iso_scene *scene)
     }
     gsl_test(wrong || !*word(one, 1, "reason") || *word(one, 2, "reason"), "sweep: points in order, k = 0 fails");
     gsl_test(cell(one, 0, "rotations_trace1") != line("rotations.0.half_turn_trace"), "sweep: the study's numbers");
+    const double last = cell(one, 29, "rotations_trace1");
     iso_record_free(one);
     iso_record_free(two);
     int left = 2;
     iso_context_set_monitor(ctx, stop, &left);
-    gsl_test(sweep(SWEEP, 1, &none) != ISO_STOPPED || (none && iso_record_rows(none) == 30), "sweep: stopped");
+    gsl_test(sweep(SWEEP, "threads=1", &none) != ISO_STOPPED || (none && iso_record_rows(none) == 30),
+             "sweep: stopped");
     iso_context_set_monitor(ctx, NULL, NULL);
     iso_record_free(none);
-    gsl_test(sweep("vary: {", 1, &none) != ISO_BAD_INPUT || none, "sweep: a mistake");
-    gsl_test(iso_sweep_ask(ctx, "absent.yaml", NULL, 0, 1, NULL, NULL, &none) != ISO_FILE_TROUBLE || none,
+    remove("api_sweep.csv"), remove("api_sweep.csv.part");
+    left = 2;
+    iso_context_set_monitor(ctx, stop, &left);
+    gsl_test(sweep(SWEEP, "threads=1\noutput=api_sweep.csv", &none) != ISO_STOPPED || none ||
+                 !strstr(iso_context_message(ctx), "api_sweep.csv.part"),
+             "sweep into a file, stopped: %s", iso_context_message(ctx));
+    iso_context_set_monitor(ctx, NULL, NULL);
+    gsl_test(sweep(SWEEP, "output=api_sweep.csv\nresume=true", &two) != ISO_OK || iso_record_rows(two) != 30 ||
+                 cell(two, 29, "rotations_trace1") != last,
+             "sweep into a file, resumed: %s", iso_context_message(ctx));
+    iso_record_free(two);
+    remove("api_sweep.csv");
+    for (int i = 0; i < 3; i++) {
+        static const char *const wrong_options[] = {"resume=true", "shard=1/2", "output=x.csv\nshard=3/2"};
+        gsl_test(sweep(SWEEP, wrong_options[i], &none) != ISO_BAD_ARGUMENT || none, "sweep: %s", wrong_options[i]);
+    }
+    gsl_test(sweep("vary: {", NULL, &none) != ISO_BAD_INPUT || none, "sweep: a mistake");
+    gsl_test(iso_sweep_ask(ctx, "absent.yaml", NULL, 0, NULL, NULL, NULL, &none) != ISO_FILE_TROUBLE || none,
              "sweep: no file");
 }
 

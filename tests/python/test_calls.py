@@ -8,6 +8,7 @@ import re
 import signal
 import threading
 import unittest
+from fractions import Fraction
 
 import numpy as np
 from shared import BALL, SOURCE, WILD, Case, example
@@ -261,10 +262,30 @@ class Numbers(Case):
             self.assertIs(type(read), isoroll.Sweep)
             self.same(read.array[:, :9], own.array[:, :9])
             self.assertEqual(dict(read.lines.text), dict(own.lines.text))
+            output = self.path("output_" + name)
+            self.same(isoroll.sweep(self.path("sweep.yaml"), output=output).array[:, :9], read.array[:, :9])
+            self.same_files(output, self.path("command_" + name))
+            self.same(isoroll.sweep(self.path("sweep.yaml"), output=output, resume=True).array, read.array)
             self.command("plot", "python_" + name, "--value", "state_n1", "-o", "picture.svg")  # it is a whole result
+        part = isoroll.sweep(self.path("sweep.yaml"), output=self.path("part.csv"), shard="1/2")
+        self.assertTrue(0 < len(part) < 5)
+        self.refuses(isoroll.BadArgument, "need an output", isoroll.sweep, self.path("sweep.yaml"), resume=True)
         self.assertEqual(rows_of(self.path("command_s.csv")), rows_of(self.path("python_s.csv")))
         self.refuses(isoroll.BadInput, "<dict>", isoroll.sweep, {"scene": scene})
         self.refuses(isoroll.FileTrouble, "absent.yaml", isoroll.sweep, "absent.yaml")
+
+    def test_fractions(self):
+        scene, half = isoroll.Scene(WILD, end=20), Fraction(1, 2)
+        self.assertEqual(isoroll.Scene(WILD, k=half).k, 0.5)
+        self.assertEqual(isoroll.Scene(WILD, k="1/3", J=("1/2", half, 1)).k, 1 / 3)
+        one = isoroll.splitting(scene, k=[0.5, 0.75], digits="double").m
+        for k in ("1/2,3/4", [half, Fraction(3, 4)], ["1/2", 0.75]):
+            self.same(isoroll.splitting(scene, k=k, digits="double").m, one)
+        self.same(isoroll.run(scene, t_end=half).array, isoroll.run(scene, t_end=0.5).array)
+        ball = isoroll.run(scene, [0, 1])
+        del ball.lines["k"], ball.lines["J"]
+        self.same(isoroll.convert(ball, "point", k=half, J=scene.J).array,
+                  isoroll.convert(isoroll.run(scene, [0, 1]), "point").array)
 
     def test_view(self):
         os.environ["ISOROLL_COMMAND"] = os.environ["ISO_COMMAND"]

@@ -88,7 +88,7 @@ _TABLE = {
     "iso_kind_name": (c_char_p, c_int),
     "iso_kind_column": (c_bool, c_char_p, c_int, c_char_p, POINTER(c_char_p)),
     "iso_list": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, POINTER(c_size_t)),
-    "iso_sweep_ask": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, c_int, c_void_p, c_void_p, _OBJECT),
+    "iso_sweep_ask": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, c_char_p, c_void_p, c_void_p, _OBJECT),
     "iso_sweep_text": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, _OBJECT),
     "iso_record_read": (c_int, c_void_p, c_char_p, c_char_p, _OBJECT) + _NOTES,
     "iso_record_write": (c_int, c_void_p, c_char_p, c_void_p, c_int, c_char_p),
@@ -342,7 +342,7 @@ def is_fraction(value: Any) -> bool:
 def real(name: str, value: Any) -> float:
     """A number as a double."""
     try:
-        return float(number(name, value))
+        return float(value if is_fraction(value) else number(name, value))
     except OverflowError:
         raise _errors.BadArgument(f"{name} is out of the range of doubles") from None
 

@@ -43,11 +43,15 @@ def explained(source: Any) -> Optional[Table]:
     return from_record(new) if new.value else None
 
 
-def sweep(source: SweepLike, *, threads: int = 0, progress: ProgressLike = None) -> Sweep:
+def sweep(source: SweepLike, *, output: Union[None, str, "os.PathLike[str]"] = None, resume: bool = False,
+          shard: Optional[str] = None, threads: int = 0, progress: ProgressLike = None) -> Sweep:
     """Measures many scenes on all processors: `isoroll sweep`.
 
     source    the path of a sweep file (lib/doc/formats.md, section 7); a str with a newline: its text; a dict of its
               keys, whose "scene" can also be a Scene
+    output    the file to which rows go as they come, .csv or .h5; None: they stay in memory
+    resume    True: go on with what there is of this file; it is no error if there is nothing
+    shard     "i/n": compute part i of n alone; `isoroll sweep --merge` puts the files of parts together
     threads   0: one for each processor
     progress  True: a bar on stderr; a function that is called with the part that is done, 0 to 1
 
@@ -55,10 +59,13 @@ def sweep(source: SweepLike, *, threads: int = 0, progress: ProgressLike = None)
     ...                "measure": {"chaos": {}}, "until": {"turns": 1000}}, progress=True)
 
     Returns a Sweep: a row for each point, with what varies, what was measured, status and reason; a point that fails
-    has a status that is not 0. After Ctrl-C, the exception's `partial` has the points that are done. A sweep that
-    goes on after days, on many machines, is for the command: --resume, --shard, --merge.
+    has a status that is not 0. After Ctrl-C, the exception's `partial` has the points that are done; with an output
+    they are in FILE.part, and the same call with resume=True goes on.
     """
     name, text = _named(source)
+    lines = {"threads": whole("threads", threads, 0, 1024) or None, "output": output and os.fspath(output),
+             "resume": "true" if resume else None, "shard": shard}
+    options = encoded("\n".join(f"{key}={value}" for key, value in lines.items() if value is not None))
     new, ctx, shown = new_record(), context(), Progress(progress)
     kept: list[Any] = []
 
@@ -68,8 +75,7 @@ def sweep(source: SweepLike, *, threads: int = 0, progress: ProgressLike = None)
         return kept[0]
 
     with interruptible(found):
-        status = lib.iso_sweep_ask(ctx, encoded(name), text, len(text or b""), whole("threads", threads, 0, 1024),
-                                       shown.pointer, None, byref(new))
+        status = lib.iso_sweep_ask(ctx, encoded(name), text, len(text or b""), options, shown.pointer, None, byref(new))
     try:
         shown.end()
         check(status, ctx)
