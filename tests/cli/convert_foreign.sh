@@ -35,6 +35,9 @@ check "read back exactly" cmp from_hex.csv from_point.csv
 run 0 convert --quiet --to point -p 6 ball.csv
 at_most "six digits" "$(difference point.csv out)" 1e-5
 check "six digits are six" awk -F, '/^[-0-9]/ { for (i = 1; i <= NF; i++) if (sprintf("%.6g", $i) != $i "") exit 1 }' out
+run 0 convert --quiet --to point bare.csv --k=-2/2 --J 7/5,2.1,6/2
+at_most "parameters as fractions" "$(difference point.csv out)" 1e-13
+refuses 2 "--k '1/0': expected a number" convert --to point bare.csv --k 1/0 --J 1,2,3
 run 0 convert --quiet --to point bare.csv --scene scene.yaml
 at_most "parameters from a scene" "$(difference point.csv out)" 1e-13
 refuses 2 "expected 1 to 17, or hex" convert --to point -p 18 ball.csv
