@@ -36,7 +36,7 @@ static int words_or_work(int argc, char **argv)
     if (argc < 2)
         help(stderr);
     else
-        complain("isoroll-mpi has the command 'sweep' alone, not '%s'", name);
+        warn("isoroll-mpi has the command 'sweep' alone, not '%s'", name);
     return EXIT_USAGE;
 }
 
@@ -49,12 +49,12 @@ int main(int argc, char **argv)
     MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &threads);
     ranks_begin(&all);
     if (all.rank > 0) {
-        complain_silently();
+        warn_silently();
         (void)!freopen("/dev/null", "w", stdout);
     }
     int result = EXIT_USAGE;
     if (threads < MPI_THREAD_SERIALIZED)
-        complain("this MPI does not let threads call it (MPI_THREAD_SERIALIZED): build it with threads");
+        warn("this MPI does not let threads call it (MPI_THREAD_SERIALIZED): build it with threads");
     else if (all.rank == 0 || argc > 2)
         result = words_or_work(argc, argv);
     else

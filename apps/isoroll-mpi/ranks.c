@@ -55,7 +55,7 @@ static int agree(void *data, int result)
     int mine[2] = {result, result == EXIT_DONE ? INT_MIN : -r->rank}, all[2];
     MPI_Iallreduce(mine, all, 2, MPI_INT, MPI_MAX, r->comm, &request);
     wait_for(&request);
-    if (r->rank > 0 && all[1] == -r->rank) fprintf(stderr, "isoroll: rank %d: %s\n", r->rank, complaint());
+    if (r->rank > 0 && all[1] == -r->rank) fprintf(stderr, "isoroll: rank %d: %s\n", r->rank, last_warning());
     return all[0];
 }
 

@@ -16,7 +16,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_scene scene = {.places = 0};
     iso_study_result r = {.text = NULL};
     if (stated && strcmp(o->file, "-") != 0)
-        return complain("analogue: '%s' and a problem in options: leave one of them out", o->file), EXIT_USAGE;
+        return warn("analogue: '%s' and a problem in options: leave one of them out", o->file), EXIT_USAGE;
     iso_status status = stated ? ISO_OK : iso_scene_load(ctx, o->file, &scene);
     begin_work(ctx, NULL);
     if (status == ISO_OK)

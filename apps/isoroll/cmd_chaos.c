@@ -42,15 +42,15 @@ static iso_status check(const shell *s)
     return ISO_FAIL_ARGUMENT(s->ctx, "csv", "chaos: standard output has room for one of --csv - and --json");
 }
 
-static void complain_interrupted(const shell *s)
+static void warn_interrupted(const shell *s)
 {
     const iso_chaos_options *how = &((const options *)s->options)->study.how;
     const iso_chaos *c = s->result.found;
     if (how->starts > 0)
-        complain("interrupted: %zu of %zu starts were followed, some of them not for all turns",
-                 c ? c->share.count : 0, how->starts);
+        warn("interrupted: %zu of %zu starts were followed, some of them not for all turns", c ? c->share.count : 0,
+             how->starts);
     else
-        complain("interrupted: without a verdict so far, the orbit is undecided");
+        warn("interrupted: without a verdict so far, the orbit is undecided");
 }
 
 static const option_row rows[] = {
@@ -64,7 +64,7 @@ static const option_row rows[] = {
 
 const command command_chaos = {
     COMMAND_OF_SCENE(chaos),
-    .parts = {.kind = "chaos", .check = check, .interrupted = complain_interrupted, .draw = draw},
+    .parts = {.kind = "chaos", .check = check, .interrupted = warn_interrupted, .draw = draw},
     .description =
         "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
         "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0, on every "

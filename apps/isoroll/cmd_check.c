@@ -34,7 +34,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (status == ISO_OK && o->json && !json_print(json_of(r.fields, r.found))) result = EXIT_NUMERICAL;
     if (status == ISO_OK && !o->json) iso_fold(stdout, r.text, terminal_width(stdout));
     if (result == EXIT_DONE && r.failed) {
-        complain("%s: a residual is above %s", o->file, ISO_SHORT(o->study.bound));
+        warn("%s: a residual is above %s", o->file, ISO_SHORT(o->study.bound));
         result = EXIT_SOME_FAILED;
     }
     iso_study_result_free(&r);

@@ -40,12 +40,11 @@ static int draw(const shell *s)
     return finish(s->ctx, status);
 }
 
-static void complain_interrupted(const shell *s)
+static void warn_interrupted(const shell *s)
 {
     const iso_comparison *c = s->result.found;
     if (c)
-        complain("interrupted: %zu of %zu rows were compared", iso_record_rows(c->difference),
-                 iso_scene_rows(&s->scene));
+        warn("interrupted: %zu of %zu rows were compared", iso_record_rows(c->difference), iso_scene_rows(&s->scene));
 }
 
 static const option_row rows[] = {
@@ -57,7 +56,7 @@ static const option_row rows[] = {
 
 const command command_compare = {
     COMMAND_OF_SCENE(compare),
-    .parts = {.change = shell_change, .interrupted = complain_interrupted, .json = json, .draw = draw},
+    .parts = {.change = shell_change, .interrupted = warn_interrupted, .json = json, .draw = draw},
     .description =
         "The backends are ball, point and, where there is a closed solution, exact. The table shows states, "
         "clocks and integrals by each of them. Differences of states are relative to the size of the "

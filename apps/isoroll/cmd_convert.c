@@ -52,8 +52,8 @@ static int convert_certified(iso_context *ctx, const options *o)
         fclose(file);
     }
     const int result = stream_close(&to, status, status == ISO_OK || status == ISO_STOPPED);
-    if (status == ISO_STOPPED) complain("interrupted: %zu rows were converted", rows);
-    if (result == EXIT_DONE && !o->study.quiet) complain("%s: %zu rows, all enclosed", o->file, rows);
+    if (status == ISO_STOPPED) warn("interrupted: %zu rows were converted", rows);
+    if (result == EXIT_DONE && !o->study.quiet) warn("%s: %zu rows, all enclosed", o->file, rows);
     return result;
 }
 
@@ -84,9 +84,9 @@ static int convert(iso_context *ctx, const options *o, const iso_scene *scene, i
     if (status == ISO_OK) status = written;
     int result = stream_close(&to, name_the_file(ctx, o->file, status), keep);
     if (status == ISO_STOPPED && result != EXIT_FILE)
-        complain("interrupted: %zu rows were converted", f->all.rows - f->all.bad);
+        warn("interrupted: %zu rows were converted", f->all.rows - f->all.bad);
     if (status == ISO_OK && result == EXIT_DONE) {
-        complain_lines(r.text);
+        warn_lines(r.text);
         if (r.failed) result = EXIT_SOME_FAILED;
     }
     iso_study_result_free(&r);

@@ -17,14 +17,14 @@ static iso_status check(const shell *s)
     return ISO_OK;
 }
 
-static void complain_interrupted(const shell *s)
+static void warn_interrupted(const shell *s)
 {
     const iso_cost_found *f = s->result.found;
     if (f->cost)
-        complain("interrupted: %d of %d cells were measured", iso_cost_count(f->cost, iso_cost_is_measured),
-                 f->cost->cells);
+        warn("interrupted: %d of %d cells were measured", iso_cost_count(f->cost, iso_cost_is_measured),
+             f->cost->cells);
     else
-        complain("interrupted: nothing has been measured");
+        warn("interrupted: nothing has been measured");
 }
 
 /* The error and time to expect of the choice go to stderr. */
@@ -34,7 +34,7 @@ static int print_expected(const shell *s)
     const iso_cost_found *f = s->result.found;
     if (isnan(f->want) || s->common->json) return EXIT_DONE;
     iso_cost_expected(f, text);
-    complain("%s", text);
+    warn("%s", text);
     return EXIT_DONE;
 }
 
@@ -42,7 +42,7 @@ static int draw(const shell *s)
 {
     const iso_cost *c = ((const iso_cost_found *)s->result.found)->cost;
     if (iso_cost_count(c, iso_cost_is_measured) > 0) return shell_draw(s, s->result.table[0]);
-    return complain("no picture: nothing has been measured"), EXIT_DONE;
+    return warn("no picture: nothing has been measured"), EXIT_DONE;
 }
 
 static const option_row rows[] = {
@@ -59,7 +59,7 @@ const command command_cost = {
     .parts = {.kind = "cost",
               .check = check,
               .change = shell_change,
-              .interrupted = complain_interrupted,
+              .interrupted = warn_interrupted,
               .write = print_expected,
               .draw = draw},
     .description =

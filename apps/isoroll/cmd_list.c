@@ -20,7 +20,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (text && status == ISO_OK) iso_fold(stdout, text, terminal_width(stdout));
     free(text);
     if (!text && status == ISO_OK) return finish(ctx, iso_context_no_memory(ctx, "a list"));
-    if (status == ISO_BAD_ARGUMENT) return complain("%s", iso_context_message(ctx)), EXIT_USAGE;
+    if (status == ISO_BAD_ARGUMENT) return warn("%s", iso_context_message(ctx)), EXIT_USAGE;
     return finish(ctx, status);
 }
 

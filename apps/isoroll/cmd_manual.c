@@ -142,7 +142,7 @@ static int run(iso_context *ctx, const void *options_given)
     while (page_word(i) && strcmp(name, page_word(i)) != 0) i++;
     if (!page_word(i)) {
         char suggested[ISO_SUGGEST_SIZE];
-        complain("manual: no page is called '%s'; %s", name, iso_suggest_word(suggested, name, page_word));
+        warn("manual: no page is called '%s'; %s", name, iso_suggest_word(suggested, name, page_word));
         return EXIT_USAGE;
     }
     const iso_status status = iso_output_open(ctx, o->output, &output);

@@ -9,7 +9,7 @@ static int draw_list(const shell *s)
 {
     const iso_periodic *f = s->result.found;
     iso_record *whole = NULL;
-    if (f->count == 0) return complain("no picture: there is no orbit"), EXIT_SOME_FAILED;
+    if (f->count == 0) return warn("no picture: there is no orbit"), EXIT_SOME_FAILED;
     iso_status status = iso_record_create_like(s->ctx, s->result.table[0], 0, NULL, &whole);
     for (size_t i = 0; i < f->count; i++) {
         iso_periodic_orbit o = f->orbit[i];
@@ -29,9 +29,9 @@ static int draw_branches(const shell *s)
 }
 
 /* Interrupted while orbits were sought, or followed. */
-static void complain_interrupted(const shell *s)
+static void warn_interrupted(const shell *s)
 {
-    complain(s->result.found ? "interrupted: branches are missing or cut" : "interrupted: orbits are missing");
+    warn(s->result.found ? "interrupted: branches are missing or cut" : "interrupted: orbits are missing");
 }
 
 static json_t *json_without_scene(const shell *s)
@@ -43,7 +43,7 @@ static int run(iso_context *ctx, const void *options_given)
 {
     static const shell_parts list = {.kind = "periodic", .stopped = "orbits are missing", .draw = draw_list},
                              follow = {.kind = "periodic follow",
-                                       .interrupted = complain_interrupted,
+                                       .interrupted = warn_interrupted,
                                        .json = json_without_scene,
                                        .draw = draw_branches},
                              chart = {.kind = "periodic chart", .stopped = "no chart", .json = json_without_scene};

@@ -47,7 +47,7 @@ static iso_status read_good(iso_context *ctx, const options *o, const char *kind
     size_t passed;
     const iso_status status = iso_table_read(ctx, o->from.file, kind, columns, file, &passed);
     if (status != ISO_OK || passed == 0) return status;
-    complain("%s: %zu rows of nan were passed over", name_of(o), passed);
+    warn("%s: %zu rows of nan were passed over", name_of(o), passed);
     return ISO_OK;
 }
 
@@ -112,22 +112,22 @@ static int run(iso_context *ctx, const void *options_given)
     const options *o = options_given;
     char name[2][NAME], kind[ISO_KIND_SIZE] = "";
     if (strcmp(o->page.path, "-") == 0)
-        return complain("plot: -o FILE is missing: name a file that ends in .svg, .png or .pdf"), EXIT_USAGE;
+        return warn("plot: -o FILE is missing: name a file that ends in .svg, .png or .pdf"), EXIT_USAGE;
     iso_status status = iso_plot_check_page(ctx, &o->page);
     progress_begin();
     if (status == ISO_OK) iso_table_kind(o->from.file, kind);
     const bool sweep = strcmp(kind, "sweep") == 0 || strcmp(kind, "sweep part") == 0;
     if (sweep && o->from.columns)
-        return complain("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;
+        return warn("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;
     const char *wish = iso_plot_section_wish(&o->page);
     if (!*kind) strcpy(kind, TRAJECTORY); /* a file of others */
     const bool trajectory = strcmp(kind, TRAJECTORY) == 0;
     const char *given = file_option_given(&o->from);
     if (wish && (sweep || trajectory || o->from.columns || !has_picture(kind)))
-        return complain("plot: --%s is for sections", wish), EXIT_USAGE;
+        return warn("plot: --%s is for sections", wish), EXIT_USAGE;
     if (given && !trajectory && strcmp(given, "columns") != 0)
-        return complain("plot: --%s is for trajectories", given), EXIT_USAGE;
-    if (!sweep && !has_picture(kind)) return complain("plot: there is no picture of a table '%s'", kind), EXIT_USAGE;
+        return warn("plot: --%s is for trajectories", given), EXIT_USAGE;
+    if (!sweep && !has_picture(kind)) return warn("plot: there is no picture of a table '%s'", kind), EXIT_USAGE;
     if (status == ISO_OK && o->value && !sweep)
         status = ISO_FAIL_ARGUMENT(ctx, "value", "plot: --value is for results of sweeps");
     if (status == ISO_OK && !o->from.columns && !trajectory) return finish(ctx, draw_table(ctx, o, sweep));

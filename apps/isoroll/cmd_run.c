@@ -34,10 +34,10 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
         const bool keep = status == ISO_OK || ((status == ISO_STOPPED || status == ISO_NUMERICAL) && found->rows > 0);
         result = stream_close(&to, status, keep);
         if (result == EXIT_NUMERICAL || status == ISO_STOPPED)
-            complain("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "",
-                     keep ? found->rows : 0, found->asked);
+            warn("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "",
+                 keep ? found->rows : 0, found->asked);
     }
-    if (to.opened && result != EXIT_FILE) complain_lines(r.text);
+    if (to.opened && result != EXIT_FILE) warn_lines(r.text);
     iso_study_result_free(&r);
     return result;
 }
@@ -57,10 +57,9 @@ static int certify(iso_context *ctx, const options *o, const iso_scene *scene, c
     if (!to.out) return finish_scene(ctx, o->file, scene, status);
     const int result = stream_close(&to, status, status == ISO_OK || ended);
     if (o->study.verbose && result != EXIT_FILE)
-        complain("%zu rows; backend %s: %ld steps with numbers of %d digits, attempt %d", r.rows,
-                 iso_backend_name((int)r.backend), r.steps, r.work_digits, r.attempts);
-    if (ended)
-        complain("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "", r.rows, r.asked);
+        warn("%zu rows; backend %s: %ld steps with numbers of %d digits, attempt %d", r.rows,
+             iso_backend_name((int)r.backend), r.steps, r.work_digits, r.attempts);
+    if (ended) warn("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "", r.rows, r.asked);
     return result;
 }
 

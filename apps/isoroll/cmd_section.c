@@ -105,9 +105,9 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene)
     const iso_section_result *found = r.found;
     const bool keep = found && found->rows > 0 && status != ISO_FILE_TROUBLE && status != ISO_CLOSED_PIPE;
     int result = t.to.opened ? stream_close(&t.to, status, keep) : finish_scene(ctx, o->shell.file, scene, status);
-    if (keep && status == ISO_STOPPED) complain("interrupted: %zu crossings were written", found->rows);
+    if (keep && status == ISO_STOPPED) warn("interrupted: %zu crossings were written", found->rows);
     if (keep && r.failed) result = worse(result, EXIT_SOME_FAILED);
-    if (keep && status == ISO_OK && !o->quiet && result <= EXIT_SOME_FAILED) complain_lines(r.text);
+    if (keep && status == ISO_OK && !o->quiet && result <= EXIT_SOME_FAILED) warn_lines(r.text);
     if (keep && t.draws && result <= EXIT_SOME_FAILED) {
         const int drawn = draw(&t, o, scene, found);
         if (drawn != EXIT_DONE) result = drawn;

@@ -78,19 +78,19 @@ static int warn_interrupted(const options *o, const iso_sweep_store *s)
     const char *how = limit_is_near() ? "stopped by SIGTERM or SIGUSR1" : "interrupted";
     const bool gentle = limit_is_near() && (s->part || s->done == 0);
     if (s->done == 0)
-        complain("%s: nothing was written", how);
+        warn("%s: nothing was written", how);
     else if (!s->part)
-        complain("%s: %zu of %zu chunks were written", how, s->done, s->wanted);
+        warn("%s: %zu of %zu chunks were written", how, s->done, s->wanted);
     else
-        complain("%s: %zu of %zu chunks are in '%s'; go on with: isoroll sweep %s -o %s%s%s --resume", how, s->done,
-                 s->wanted, s->part, o->file, o->output, o->shard ? " --shard " : "", o->shard ? o->shard : "");
+        warn("%s: %zu of %zu chunks are in '%s'; go on with: isoroll sweep %s -o %s%s%s --resume", how, s->done,
+             s->wanted, s->part, o->file, o->output, o->shard ? " --shard " : "", o->shard ? o->shard : "");
     return gentle ? EXIT_DONE : EXIT_SOME_FAILED;
 }
 
 static int warn_failures(const iso_sweep_failures *f, const char *of)
 {
     if (f->count == 0) return EXIT_DONE;
-    complain("%zu %spoints failed; the first is point %zu: %s", f->count, of, f->first, f->reason);
+    warn("%zu %spoints failed; the first is point %zu: %s", f->count, of, f->first, f->reason);
     return EXIT_SOME_FAILED;
 }
 
@@ -150,8 +150,8 @@ static int run_file(iso_context *ctx, const options *o, const sweep_team *team, 
         result = agree(team, finish(ctx, status));
     }
     if (store && zeros > 0 && store->done < store->wanted) /* before the work begins, not hours later */
-        complain("sweep: %zu of %zu points have k = 0, where there is no ball: they will fail", zeros,
-                 plan->family.count);
+        warn("sweep: %zu of %zu points have k = 0, where there is no ball: they will fail", zeros,
+             plan->family.count);
     if (result == EXIT_DONE && writes)
         result = compute(ctx, o, team, sweep, store);
     else if (result == EXIT_DONE)
@@ -168,7 +168,7 @@ static bool fits(const options *o)
     const char *other = o->resume ? "--resume" : o->shard ? "--shard" : NULL;
     if (!o->merge && !isnan(o->point) && strcmp(o->output, "-") != 0) other = "--output";
     if (o->merge && !isnan(o->point)) other = "--point";
-    if (alone && other) complain("sweep: %s does nothing with %s", other, alone);
+    if (alone && other) warn("sweep: %s does nothing with %s", other, alone);
     return !alone || !other;
 }
 
@@ -176,7 +176,7 @@ static int print_point(iso_context *ctx, const options *o, const iso_sweep_file 
 {
     const size_t count = iso_sweep_file_plan(file)->family.count;
     if (!(o->point < (double)count))
-        return complain("sweep: --point %.0f: points are 0 to %zu", o->point, count - 1), EXIT_USAGE;
+        return warn("sweep: --point %.0f: points are 0 to %zu", o->point, count - 1), EXIT_USAGE;
     if (!fits(o)) return EXIT_USAGE;
     return finish(ctx, iso_sweep_print_point(ctx, file, (size_t)o->point, stdout));
 }
@@ -196,15 +196,15 @@ int sweep_with(iso_context *ctx, const void *options_given, const sweep_team *te
     iso_sweep_file *file;
     struct stat s;
     if (!o->merge && o->parts.count > 1)
-        return complain("sweep: one argument too many: %s", o->parts.path[1]), EXIT_USAGE;
+        return warn("sweep: one argument too many: %s", o->parts.path[1]), EXIT_USAGE;
     if (!o->merge && !file_fits(&command_sweep, o->file)) return EXIT_BAD_INPUT;
     const bool computes = !o->merge && isnan(o->point); /* else one member is enough */
     const bool many = team && team->members > 1;
     const bool pipe = strcmp(o->file, "-") == 0 || (stat(o->file, &s) == 0 && !S_ISREG(s.st_mode));
     if (computes && many && pipe) /* only one program can read it; who opens a file that is not there tells why */
-        return complain("sweep: a pipe reaches one rank alone: give a file"), EXIT_USAGE;
+        return warn("sweep: a pipe reaches one rank alone: give a file"), EXIT_USAGE;
     if (computes && many && strcmp(o->output, "-") == 0)
-        return complain("sweep: mpirun does not tell whether its output arrives: give -o FILE"), EXIT_USAGE;
+        return warn("sweep: mpirun does not tell whether its output arrives: give -o FILE"), EXIT_USAGE;
     if (!computes && team && !team->writes) return EXIT_DONE;
     if (o->merge) return merge(ctx, o);
     int result = finish(ctx, iso_sweep_read(ctx, o->file, &file));

@@ -106,18 +106,17 @@ static int run(iso_context *ctx, const void *options_given)
     static const char *const names[] = {"scene", "trajectory", "section"};
     const options *o = options_given;
     if (!o->output)
-        return complain("view: -o FILE is missing: name the page, such as page.html; - is standard output"),
-               EXIT_USAGE;
+        return warn("view: -o FILE is missing: name the page, such as page.html; - is standard output"), EXIT_USAGE;
     const bool standard = strcmp(o->from.file, "-") == 0 && !o->live;
     iso_status status = view_check_build(ctx, o->live);
     if (status == ISO_OK && standard) status = make_seekable(ctx);
     if (status != ISO_OK) return finish(ctx, status);
     const view_kind kind = has_own_scene(o) ? SCENE : kind_of(&o->from);
     if (o->live && kind != SCENE)
-        return complain("view: --live computes from a scene: '%s' is none", o->from.file), EXIT_USAGE;
+        return warn("view: --live computes from a scene: '%s' is none", o->from.file), EXIT_USAGE;
     const char *given = file_option_given(&o->from);
     if (given && kind != TRAJECTORY)
-        return complain("view: --%s is for trajectories, and this is a %s", given, names[kind]), EXIT_USAGE;
+        return warn("view: --%s is for trajectories, and this is a %s", given, names[kind]), EXIT_USAGE;
     view_page page = {.title = has_own_scene(o) ? "laboratory"
                                : standard       ? "<stdin>"
                                                 : short_name(o->from.file),
@@ -129,7 +128,7 @@ static int run(iso_context *ctx, const void *options_given)
     status = make(ctx, o, kind, &page);
     const bool no_orbit = page.no_orbit;
     view_page_free(&page);
-    if (status == ISO_STOPPED) complain("interrupted: %s", iso_context_message(ctx));
+    if (status == ISO_STOPPED) warn("interrupted: %s", iso_context_message(ctx));
     const int result = finish(ctx, status);
     return result == EXIT_DONE && no_orbit ? EXIT_SOME_FAILED : result;
 }

@@ -86,18 +86,17 @@ bool file_fits(const command *c, const char *path)
             snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", commands[n]->name);
     }
     if (kind == FILE_SCENE && c->takes & FILE_SWEEP)
-        complain("%s: '%s' is a scene: a sweep has the keys scene, vary and measure; scenes are for: %s", c->name,
-                 path, list);
+        warn("%s: '%s' is a scene: a sweep has the keys scene, vary and measure; scenes are for: %s", c->name, path,
+             list);
     else if (kind == FILE_SCENE && c->takes & FILE_TRAJECTORY)
-        complain("%s: '%s' is a scene, and no trajectory: 'isoroll run %s -o trajectory.csv' makes one; scenes are "
-                 "for: %s",
-                 c->name, path, path, list);
+        warn("%s: '%s' is a scene, and no trajectory: 'isoroll run %s -o trajectory.csv' makes one; scenes are "
+             "for: %s",
+             c->name, path, path, list);
     else if (kind == FILE_TABLE)
-        complain("%s: '%s' is a table '%s', with no states of one scene, which is for: %s", c->name, path, table,
-                 list);
+        warn("%s: '%s' is a table '%s', with no states of one scene, which is for: %s", c->name, path, table, list);
     else {
         while (kinds[i].kind != kind || (*table && strcmp(kinds[i].table, table) != 0)) i++;
-        complain("%s: '%s' is %s, which is for: %s", c->name, path, kinds[i].words, list);
+        warn("%s: '%s' is %s, which is for: %s", c->name, path, kinds[i].words, list);
     }
     return false;
 }

@@ -190,7 +190,7 @@ bool json_print(json_t *o)
     if (whole)
         puts(text);
     else
-        complain("no memory for --json");
+        warn("no memory for --json");
     free(text);
     json_decref(o);
     return whole;

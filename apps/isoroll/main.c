@@ -8,9 +8,9 @@ static int unknown(const char *name)
 {
     const char *near = iso_nearest_word(name, command_word);
     if (near)
-        complain("unknown command '%s'; did you mean '%s'?", name, near);
+        warn("unknown command '%s'; did you mean '%s'?", name, near);
     else
-        complain("unknown command '%s'; 'isoroll --help' lists them", name);
+        warn("unknown command '%s'; 'isoroll --help' lists them", name);
     return EXIT_USAGE;
 }
 

@@ -74,14 +74,14 @@ static bool set_option(const command *c, const option_row *r, const char *text, 
 {
     if (r->set(options + r->offset, text)) return true;
     const char *near = iso_nearest_word(text, r->word);
-    complain("%s: --%s '%s': expected %s%s%s%s", c->name, r->name, text, r->expected, near ? "; did you mean '" : "",
-             near ? near : "", near ? "'?" : "");
+    warn("%s: --%s '%s': expected %s%s%s%s", c->name, r->name, text, r->expected, near ? "; did you mean '" : "",
+         near ? near : "", near ? "'?" : "");
     return false;
 }
 
 static options_result wrong(const command *c, const char *what, const char *which)
 {
-    complain("%s: %s%s; see 'isoroll %s --help'", c->name, what, which, c->name);
+    warn("%s: %s%s; see 'isoroll %s --help'", c->name, what, which, c->name);
     return OPTIONS_WRONG;
 }
 
@@ -98,14 +98,14 @@ static options_result wrong_long(const command *c, const char *text)
         if (strncmp(one, name, length) != 0 || strlen(list) + strlen(one) + 8 > sizeof list) continue;
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s--%s", fit++ > 0 ? ", " : "", one);
     }
-    if (fit > 1) return complain("%s: ambiguous option %s: it fits %s", c->name, text, list), OPTIONS_WRONG;
-    if (fit == 1) return complain("%s: %s: the option %s takes no argument", c->name, text, list), OPTIONS_WRONG;
+    if (fit > 1) return warn("%s: ambiguous option %s: it fits %s", c->name, text, list), OPTIONS_WRONG;
+    if (fit == 1) return warn("%s: %s: the option %s takes no argument", c->name, text, list), OPTIONS_WRONG;
     for (int i = 0; options_row(c, i) && count < MOST_ROWS; i++) names[count++] = options_row(c, i)->name;
     snprintf(bare, sizeof bare, "%.*s", (int)(length < sizeof bare ? length : 0), name);
     const char *gone = iso_option_gone(c->name, bare), *near = iso_nearest(bare, count, names);
-    if (gone) return complain("%s: there is no option --%s any more: %s", c->name, bare, gone), OPTIONS_WRONG;
+    if (gone) return warn("%s: there is no option --%s any more: %s", c->name, bare, gone), OPTIONS_WRONG;
     if (!near) return wrong(c, "unknown option ", text);
-    return complain("%s: unknown option %s; did you mean '--%s'?", c->name, text, near), OPTIONS_WRONG;
+    return warn("%s: unknown option %s; did you mean '--%s'?", c->name, text, near), OPTIONS_WRONG;
 }
 
 /* What getopt_long is given: the long names, and the letters after the colon that makes it silent. --csv is a
@@ -195,11 +195,11 @@ static options_result keep_files_apart(const command *c, const char *options)
         char *part = iso_file_part(path);
         const bool read = is_read(c, path, options) || (part && is_read(c, part, options));
         free(part);
-        if (read) return complain("%s: '%s' would overwrite what is read", c->name, path), OPTIONS_WRONG;
+        if (read) return warn("%s: '%s' would overwrite what is read", c->name, path), OPTIONS_WRONG;
         for (int before = 0; before < i; before++) {
             const char *other = path_of(options_row(c, before), OPTION_WRITES, options);
             if (other && (strcmp(without_dot(path), without_dot(other)) == 0 || same_file(path, other, "/dev/null")))
-                return complain("%s: '%s' would be two files in one", c->name, path), OPTIONS_WRONG;
+                return warn("%s: '%s' would be two files in one", c->name, path), OPTIONS_WRONG;
         }
     }
     return OPTIONS_DONE;

@@ -31,7 +31,7 @@ void program_version(void)
 
 static int run_with(iso_context *ctx, void *options, const command *c, int argc, char **argv)
 {
-    if (!ctx || !options) return complain("out of memory"), EXIT_NUMERICAL;
+    if (!ctx || !options) return warn("out of memory"), EXIT_NUMERICAL;
     if (c->defaults) memcpy(options, c->defaults, c->size);
     if (c->study) c->study->begin(options);
     switch (options_read(c, argc, argv, options)) {
@@ -68,7 +68,7 @@ int program_flush(int status)
     if (fflush(stdout) == 0 && !ferror(stdout)) return status;
     if (errno == 0) (void)!write(STDOUT_FILENO, "\n", 1); /* an earlier write failed: this one says why */
     if (errno != EPIPE && status != EXIT_FILE)
-        complain("cannot write to standard output: %s", strerror(errno ? errno : EIO));
+        warn("cannot write to standard output: %s", strerror(errno ? errno : EIO));
     return status == EXIT_DONE ? EXIT_FILE : status;
 }
 

@@ -100,27 +100,27 @@ int terminal_width(FILE *stream)
 static bool silently;
 static char kept[2048];
 
-void complain_lines(const char *text)
+void warn_lines(const char *text)
 {
     while (text && *text) {
         const size_t length = strcspn(text, "\n");
-        complain("%.*s", (int)length, text);
+        warn("%.*s", (int)length, text);
         text += length + (text[length] == '\n');
     }
 }
 
-void complain_silently(void)
+void warn_silently(void)
 {
     silently = true;
 }
 
-const char *complaint(void)
+const char *last_warning(void)
 {
     return kept;
 }
 
 /* File names may hold control characters: they become question marks. */
-void complain(const char *format, ...)
+void warn(const char *format, ...)
 {
     char line[sizeof kept + 16];
     va_list args;
@@ -155,7 +155,7 @@ int finish(iso_context *ctx, iso_status status)
         [ISO_CLOSED_PIPE] = EXIT_FILE,
     };
     const bool silent = status == ISO_OK || status == ISO_STOPPED || status == ISO_CLOSED_PIPE;
-    if (!silent) complain("%s", iso_context_message(ctx));
+    if (!silent) warn("%s", iso_context_message(ctx));
     return exits[status];
 }
 

@@ -19,20 +19,20 @@ enum exit_status {
     EXIT_FILE = 5,
 };
 
-/* Text for people is as wide as the terminal. A pipe or a file gets each line whole, so that `grep` finds what stands in
- * it, unless the environment's COLUMNS says how wide it should be. Returns ISO_ANY_WIDTH for such a stream. */
+/* Text for people is as wide as the terminal. A pipe or a file gets each line whole, so that `grep` finds what stands
+ * in it, unless the environment's COLUMNS says how wide it should be. Returns ISO_ANY_WIDTH for such a stream. */
 enum { USUAL_WIDTH = 80 };
 int terminal_width(FILE *stream);
 
 /* Prints "isoroll: MESSAGE" on stderr, in one line. */
-void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Prints each line of a text as complain does; NULL: there is none. */
-void complain_lines(const char *text);
+/* Prints each line of a text as warn does; NULL: there is none. */
+void warn_lines(const char *text);
 
-/* From now on complain only keeps its message, the last one; complaint gives it ("": none). */
-void complain_silently(void);
-const char *complaint(void);
+/* From now on warn only keeps its message; last_warning returns it ("": none). */
+void warn_silently(void);
+const char *last_warning(void);
 
 /* Prints the context's message and returns the exit status that belongs to `status`. Says nothing after success,
  * after a stop on request, and when the reader of a pipe has gone. */

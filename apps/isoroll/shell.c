@@ -9,7 +9,7 @@
 static void show_note(void *data, const char *text)
 {
     (void)data;
-    complain("%s", text);
+    warn("%s", text);
 }
 
 iso_status shell_change(shell *s)
@@ -77,7 +77,7 @@ int shell_run(iso_context *ctx, const iso_study *study, const shell_parts *parts
     status = iso_study_answer(ctx, study, &s.subject, options, &s.result);
     progress_end();
     int result = finish_scene(ctx, common->file, &s.scene, status);
-    if (status == ISO_STOPPED && parts->stopped) complain("interrupted: %s", parts->stopped);
+    if (status == ISO_STOPPED && parts->stopped) warn("interrupted: %s", parts->stopped);
     if (status == ISO_STOPPED && parts->interrupted) parts->interrupted(&s);
     if (!s.result.table[0]) {
         iso_table_writer_close(ctx, writer, false);

@@ -57,7 +57,7 @@ iso_status stream_line(void *data, const char *text)
 
 static void show_note(void *data, const char *text)
 {
-    if (!((const stream *)data)->quiet) complain("%s", text);
+    if (!((const stream *)data)->quiet) warn("%s", text);
 }
 
 iso_sink stream_sink(stream *s)

@@ -1,8 +1,8 @@
 /* wide_impl.h - numbers of 113 bits where the compiler has them, else of 64 bits; and head + tail
  * (return_map_impl.h).
  */
-#ifndef ISO_STUDY_WIDE_IMPL_H
-#define ISO_STUDY_WIDE_IMPL_H
+#ifndef ISO_METHOD_WIDE_IMPL_H
+#define ISO_METHOD_WIDE_IMPL_H
 
 #include <float.h>
 #include <math.h>

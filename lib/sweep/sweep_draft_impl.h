@@ -1,7 +1,7 @@
 /* sweep_draft_impl.h - a sweep's text, as its files share it: sweep_file.c reads its keys, sweep_vary.c what varies,
  * sweep_point.c makes the points. */
-#ifndef ISO_SWEEP_DRAFT_IMPL_H
-#define ISO_SWEEP_DRAFT_IMPL_H
+#ifndef ISO_SWEEP_SWEEP_DRAFT_IMPL_H
+#define ISO_SWEEP_SWEEP_DRAFT_IMPL_H
 
 #include "io/scene_draft_impl.h"
 #include "map/section.h"

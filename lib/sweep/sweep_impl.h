@@ -23,8 +23,8 @@
  * The numbers are those that the command finds for the scene of the point, to the bit, with the same vectors. A word
  * is the number of its place: a verdict is 0 (regular), 1 (chaotic), 2 (undecided) or 3 (integrable).
  */
-#ifndef ISO_SWEEP_IMPL_H
-#define ISO_SWEEP_IMPL_H
+#ifndef ISO_SWEEP_SWEEP_IMPL_H
+#define ISO_SWEEP_SWEEP_IMPL_H
 
 #include <stdint.h>
 #include <stdio.h>

@@ -15,8 +15,8 @@
  * Shard i of n (option --shard) is chunk i, i + n, i + 2n, ... of a sweep. Its result is a part; iso_sweep_merge
  * puts parts together, to the bytes that one program writes.
  */
-#ifndef ISO_SWEEP_STORE_IMPL_H
-#define ISO_SWEEP_STORE_IMPL_H
+#ifndef ISO_SWEEP_SWEEP_STORE_IMPL_H
+#define ISO_SWEEP_SWEEP_STORE_IMPL_H
 
 #include "io/table_impl.h"
 #include "sweep/sweep_impl.h"

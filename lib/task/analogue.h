@@ -18,8 +18,8 @@
  * D = m B^2 must be positive and obey the triangle inequalities. With J sorted, they do for 0 < D/s <= J1 + J2 - J3:
  * a body exists exactly if J1 + J2 > J3. D/s is put in the middle.
  */
-#ifndef ISO_STUDY_ANALOGUE_H
-#define ISO_STUDY_ANALOGUE_H
+#ifndef ISO_TASK_ANALOGUE_H
+#define ISO_TASK_ANALOGUE_H
 
 #include "orbit/orbit.h"
 

@@ -6,8 +6,8 @@
  *     if (c->runs == ISO_BACKENDS) ... c->run[ISO_BY_EXACT], c->from_exact[ISO_BALL] ...
  *     iso_comparison_free(c);
  */
-#ifndef ISO_STUDY_COMPARE_H
-#define ISO_STUDY_COMPARE_H
+#ifndef ISO_TASK_COMPARE_H
+#define ISO_TASK_COMPARE_H
 
 #include "base/field.h"
 #include "base/record.h"

@@ -8,8 +8,8 @@
  * The columns are those that the scene asks for (iso_scene_column_list). The rows are kept in memory only if the times
  * come in another order than they are worked on.
  */
-#ifndef ISO_STUDY_RUN_H
-#define ISO_STUDY_RUN_H
+#ifndef ISO_TASK_RUN_H
+#define ISO_TASK_RUN_H
 
 #include "base/record.h"
 #include "base/sink.h"

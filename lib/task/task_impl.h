@@ -7,7 +7,7 @@
 #include "task/analogue.h"
 #include "task/compare.h"
 
-/* --- which backend `auto` means for the questions of a run (backend.c) ------------------------------------------ */
+/* --- which backend `auto` means for the extent of a run (backend.c) -------------------------------------------- */
 
 /* What an orbit is asked for. */
 typedef struct iso_run_extent {
@@ -15,10 +15,10 @@ typedef struct iso_run_extent {
     double farthest; /* ... this one the farthest, caller's units */
 } iso_run_extent;
 
-/* The orbit, as `how` says. ISO_BACKEND_AUTO there is the cheapest backend for the questions. If it has no such
- * orbit, it is what iso_orbit_create takes for ISO_BACKEND_AUTO. Errors: those of iso_orbit_create. */
+/* The orbit, as `how` says. ISO_BACKEND_AUTO there is the cheapest backend for the extent. If there is no orbit by that
+ * backend, it is what iso_orbit_create takes for ISO_BACKEND_AUTO. Errors: those of iso_orbit_create. */
 iso_status iso_backend_open(iso_context *ctx, const iso_scene *scene, const iso_orbit_options *how,
-                            const iso_run_extent *questions, iso_orbit **orbit);
+                            const iso_run_extent *extent, iso_orbit **orbit);
 
 /* --- the order in which an orbit is followed to times that come in any order (run.c) ---------------------------- */
 

@@ -216,7 +216,7 @@ iso_status plot_tables(iso_context *ctx, const iso_plot_page *page, const iso_re
     iso_picture picture;
     ISO_TRY(iso_picture_make(ctx, table, options, &picture));
     const char *note = iso_record_get(picture.table[0], "note");
-    if (note) complain("%s", note);
+    if (note) warn("%s", note);
     const iso_status status = plot_draw(ctx, page, &picture);
     iso_picture_free(&picture);
     return status;

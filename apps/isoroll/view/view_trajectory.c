@@ -117,10 +117,9 @@ static void note_miss(const char *file, view_page *page, const iso_record *rows,
     page->no_orbit = true;
     view_note(page, "Rows are no orbit: the row at %s = %.6g is missed by %.2g by the orbit through the row before.",
               clock, time, worst->by);
-    complain(
-        "%s: rows are no orbit: the row at %s = %.10g is missed by %.2g by the orbit through the row before: "
-        "they do not solve the equations that the file or the options state (k, J, clock), or have too few digits",
-        file, clock, time, worst->by);
+    warn("%s: rows are no orbit: the row at %s = %.10g is missed by %.2g by the orbit through the row before: "
+         "they do not solve the equations that the file or the options state (k, J, clock), or have too few digits",
+         file, clock, time, worst->by);
 }
 
 /* Where a run has lost contact, its last row, or of times that run backwards the first of the page, has pressure 0.

@@ -7,8 +7,8 @@
  *     arb_text.c       balls as decimal numbers
  *     arb_convert.c    rows of one model as rows of the other
  */
-#ifndef ISO_STUDY_CERTIFY_ARB_CERTIFY_IMPL_H
-#define ISO_STUDY_CERTIFY_ARB_CERTIFY_IMPL_H
+#ifndef ISO_INSTRUMENT_CERTIFY_ARB_CERTIFY_IMPL_H
+#define ISO_INSTRUMENT_CERTIFY_ARB_CERTIFY_IMPL_H
 
 #include <stdio.h>
 

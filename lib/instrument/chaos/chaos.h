@@ -27,8 +27,8 @@
  * spread starts. The ball checks the verdict of every 16th of them, if 750 turns are enough for it. Both follow the
  * scene's own orbit and the starts that are given. With `models` ISO_SHOW_BOTH both follow every orbit.
  */
-#ifndef ISO_STUDY_CHAOS_H
-#define ISO_STUDY_CHAOS_H
+#ifndef ISO_INSTRUMENT_CHAOS_CHAOS_H
+#define ISO_INSTRUMENT_CHAOS_CHAOS_H
 
 #include <math.h>
 #include <stdint.h>

@@ -3,8 +3,8 @@
  *     chaos.c        options, refusals, the result
  *     chaos_walk.c   groups of orbits, round by round
  */
-#ifndef ISO_STUDY_CHAOS_IMPL_H
-#define ISO_STUDY_CHAOS_IMPL_H
+#ifndef ISO_INSTRUMENT_CHAOS_CHAOS_IMPL_H
+#define ISO_INSTRUMENT_CHAOS_CHAOS_IMPL_H
 
 #include "instrument/chaos/chaos.h"
 #include "orbit/walk_impl.h"

@@ -37,8 +37,8 @@
  * at the number given to iso_indicators_begin. indicators.c has the conditions of the verdict, lib/doc/measured.md
  * their calibration.
  */
-#ifndef ISO_STUDY_INDICATORS_H
-#define ISO_STUDY_INDICATORS_H
+#ifndef ISO_INSTRUMENT_CHAOS_INDICATORS_H
+#define ISO_INSTRUMENT_CHAOS_INDICATORS_H
 
 #include <stdbool.h>
 

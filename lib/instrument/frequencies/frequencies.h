@@ -15,8 +15,8 @@
  *   halves of the orbit are compared: if their frequencies differ, and longer orbits hardly reduce the difference,
  *   the motion is chaotic.
  */
-#ifndef ISO_STUDY_FREQUENCIES_H
-#define ISO_STUDY_FREQUENCIES_H
+#ifndef ISO_INSTRUMENT_FREQUENCIES_FREQUENCIES_H
+#define ISO_INSTRUMENT_FREQUENCIES_FREQUENCIES_H
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* frequencies_impl.h - what the closed and the estimated frequencies share. */
-#ifndef ISO_STUDY_FREQUENCIES_IMPL_H
-#define ISO_STUDY_FREQUENCIES_IMPL_H
+#ifndef ISO_INSTRUMENT_FREQUENCIES_FREQUENCIES_IMPL_H
+#define ISO_INSTRUMENT_FREQUENCIES_FREQUENCIES_IMPL_H
 
 #include "base/math_impl.h"
 #include "instrument/frequencies/frequencies.h"

@@ -8,8 +8,8 @@
  * is a rotation about the axis of b_i: for H = 0 the rays F/h = 2 J_i (k = 1) and F/h = 2 J_i (J_j + J_l) (k = -1).
  * The two roots meet at F/h = (J1 + J2 + J3)^2/2, where k = -1 and b3 > b1 + b2.
  */
-#ifndef ISO_STUDY_MOMENTUM_H
-#define ISO_STUDY_MOMENTUM_H
+#ifndef ISO_INSTRUMENT_FREQUENCIES_MOMENTUM_H
+#define ISO_INSTRUMENT_FREQUENCIES_MOMENTUM_H
 
 #include "base/record.h"
 #include "model/system.h"

@@ -51,8 +51,8 @@
  *
  * A search is evidence, no proof: it says that no function of this space is constant on these orbits.
  */
-#ifndef ISO_STUDY_INTEGRALS_H
-#define ISO_STUDY_INTEGRALS_H
+#ifndef ISO_INSTRUMENT_INTEGRALS_INTEGRALS_H
+#define ISO_INSTRUMENT_INTEGRALS_INTEGRALS_H
 
 #include "base/field.h"
 #include "orbit/orbit.h"

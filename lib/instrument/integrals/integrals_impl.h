@@ -1,6 +1,6 @@
 /* integrals_impl.h - what the parts of the search for first integrals share: samples, terms, one part of a space. */
-#ifndef ISO_STUDY_INTEGRALS_IMPL_H
-#define ISO_STUDY_INTEGRALS_IMPL_H
+#ifndef ISO_INSTRUMENT_INTEGRALS_INTEGRALS_IMPL_H
+#define ISO_INSTRUMENT_INTEGRALS_INTEGRALS_IMPL_H
 
 #include "exact/integrability_impl.h"
 #include "instrument/integrals/integrals.h"

@@ -13,8 +13,8 @@
  *     collision           u reaches an end of the line, a rotation about a principal axis
  *     torus               k = 1 or -1, or two equal moments: the orbit is one of a torus of them
  */
-#ifndef ISO_STUDY_CONTINUATION_H
-#define ISO_STUDY_CONTINUATION_H
+#ifndef ISO_INSTRUMENT_PERIODIC_CONTINUATION_H
+#define ISO_INSTRUMENT_PERIODIC_CONTINUATION_H
 
 #include "instrument/periodic/periodic.h"
 

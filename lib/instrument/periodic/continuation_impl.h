@@ -4,8 +4,8 @@
  *     continuation_curve.c    the curve F(u, value) = 0: one evaluation, the corrector, one step; what happens between
  *                             two points, and exactly where; what branches off
  */
-#ifndef ISO_STUDY_CONTINUATION_IMPL_H
-#define ISO_STUDY_CONTINUATION_IMPL_H
+#ifndef ISO_INSTRUMENT_PERIODIC_CONTINUATION_IMPL_H
+#define ISO_INSTRUMENT_PERIODIC_CONTINUATION_IMPL_H
 
 #include "instrument/periodic/continuation.h"
 #include "instrument/periodic/periodic_impl.h"

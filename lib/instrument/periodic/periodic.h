@@ -27,8 +27,8 @@
  * cannot reach the whole sphere, orbits may come to rest and go back the same way. Those that no S and T S maps to
  * themselves are not on the lines: only a search from a grid finds them.
  */
-#ifndef ISO_STUDY_PERIODIC_H
-#define ISO_STUDY_PERIODIC_H
+#ifndef ISO_INSTRUMENT_PERIODIC_PERIODIC_H
+#define ISO_INSTRUMENT_PERIODIC_PERIODIC_H
 
 #include <stdint.h>
 

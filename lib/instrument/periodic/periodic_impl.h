@@ -11,8 +11,8 @@
  *
  * All of them compute in own units with eps = 1, on the level H = energy of the point.
  */
-#ifndef ISO_STUDY_PERIODIC_IMPL_H
-#define ISO_STUDY_PERIODIC_IMPL_H
+#ifndef ISO_INSTRUMENT_PERIODIC_PERIODIC_IMPL_H
+#define ISO_INSTRUMENT_PERIODIC_PERIODIC_IMPL_H
 
 #include "instrument/periodic/periodic.h"
 #include "map/section.h"

@@ -1,6 +1,6 @@
 /* periodic_study_impl.h - what the study of periodic orbits is asked, and what it finds for a chart. */
-#ifndef ISO_STUDY_PERIODIC_STUDY_IMPL_H
-#define ISO_STUDY_PERIODIC_STUDY_IMPL_H
+#ifndef ISO_INSTRUMENT_PERIODIC_PERIODIC_STUDY_IMPL_H
+#define ISO_INSTRUMENT_PERIODIC_PERIODIC_STUDY_IMPL_H
 
 #include "instrument/periodic/continuation.h"
 #include "instrument/periodic/stability_chart.h"

@@ -2,8 +2,8 @@
  * and one moment, or of k and the level (study/level.h): traces of Hill's equation (periodic.h) on a grid, and the
  * borders, where a trace is 2 or -2.
  */
-#ifndef ISO_STUDY_STABILITY_CHART_H
-#define ISO_STUDY_STABILITY_CHART_H
+#ifndef ISO_INSTRUMENT_PERIODIC_STABILITY_CHART_H
+#define ISO_INSTRUMENT_PERIODIC_STABILITY_CHART_H
 
 #include "base/field.h"
 #include "base/record.h"

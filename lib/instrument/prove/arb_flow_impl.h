@@ -21,8 +21,8 @@
  *
  * The set (q, ..., z) does not distinguish (gamma, u) from its images under half turns about c: l is known modulo pi.
  */
-#ifndef ISO_STUDY_PROVE_ARB_FLOW_IMPL_H
-#define ISO_STUDY_PROVE_ARB_FLOW_IMPL_H
+#ifndef ISO_INSTRUMENT_PROVE_ARB_FLOW_IMPL_H
+#define ISO_INSTRUMENT_PROVE_ARB_FLOW_IMPL_H
 
 #include <stdbool.h>
 

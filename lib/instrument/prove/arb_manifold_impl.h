@@ -1,6 +1,6 @@
 /* arb_manifold_impl.h - the rotation O about the middle axis and its unstable manifold, from O to the line l = pi/2. */
-#ifndef ISO_STUDY_PROVE_ARB_MANIFOLD_IMPL_H
-#define ISO_STUDY_PROVE_ARB_MANIFOLD_IMPL_H
+#ifndef ISO_INSTRUMENT_PROVE_ARB_MANIFOLD_IMPL_H
+#define ISO_INSTRUMENT_PROVE_ARB_MANIFOLD_IMPL_H
 
 #include "instrument/prove/arb_flow_impl.h"
 

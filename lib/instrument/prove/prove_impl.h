@@ -2,8 +2,8 @@
  *
  * Only the files arb_*.c use Arb; a build without Arb leaves them out. All other files include this header alone.
  */
-#ifndef ISO_STUDY_PROVE_IMPL_H
-#define ISO_STUDY_PROVE_IMPL_H
+#ifndef ISO_INSTRUMENT_PROVE_PROVE_IMPL_H
+#define ISO_INSTRUMENT_PROVE_PROVE_IMPL_H
 
 #include <stdio.h>
 

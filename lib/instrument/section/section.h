@@ -14,8 +14,8 @@
  * Memory does not grow with the number of orbits. It grows with the number of crossings only up to a bound of about
  * 100 MB.
  */
-#ifndef ISO_STUDY_SECTION_H
-#define ISO_STUDY_SECTION_H
+#ifndef ISO_INSTRUMENT_SECTION_SECTION_H
+#define ISO_INSTRUMENT_SECTION_SECTION_H
 
 #include <math.h>
 #include <stdint.h>

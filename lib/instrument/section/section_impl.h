@@ -4,8 +4,8 @@
  *     section_walk.c      the orbits: the header, rows, the comparison of both models
  *     section_area.c      in place of rows: whether the return map keeps the area
  */
-#ifndef ISO_STUDY_SECTION_IMPL_H
-#define ISO_STUDY_SECTION_IMPL_H
+#ifndef ISO_INSTRUMENT_SECTION_SECTION_IMPL_H
+#define ISO_INSTRUMENT_SECTION_SECTION_IMPL_H
 
 #include "instrument/section/section.h"
 #include "orbit/walk_impl.h"

@@ -16,8 +16,8 @@
  * 113 where those do not distinguish m from 0; 106 of the 113 are kept. Errors come from a second computation, with
  * another polynomial on another domain, and from what rounding does.
  */
-#ifndef ISO_STUDY_SEPARATRIX_H
-#define ISO_STUDY_SEPARATRIX_H
+#ifndef ISO_INSTRUMENT_SEPARATRIX_SEPARATRIX_H
+#define ISO_INSTRUMENT_SEPARATRIX_SEPARATRIX_H
 
 #include <stdint.h>
 

@@ -11,8 +11,8 @@
  * 1, because the half-turn trace of the middle axis is below -2 (lib/doc/theory.md) and g turns its sign over. g and
  * z -> -z commute.
  */
-#ifndef ISO_STUDY_SEPARATRIX_IMPL_H
-#define ISO_STUDY_SEPARATRIX_IMPL_H
+#ifndef ISO_INSTRUMENT_SEPARATRIX_SEPARATRIX_IMPL_H
+#define ISO_INSTRUMENT_SEPARATRIX_SEPARATRIX_IMPL_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -4,8 +4,8 @@
  *     csv_lines.c    the lines of the file
  *     csv_row.c      the fields of one line, its numbers; the cells of other tables: numbers, nan among them, words
  */
-#ifndef ISO_IO_CSV_IMPL_H
-#define ISO_IO_CSV_IMPL_H
+#ifndef ISO_IO_CSV_CSV_IMPL_H
+#define ISO_IO_CSV_CSV_IMPL_H
 
 #include "io/table_impl.h"
 

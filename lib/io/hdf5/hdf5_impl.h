@@ -20,8 +20,8 @@
  *     /point        integers; in a part only: else the rows are points 0, 1, ...
  *     /failed       reason: of the rows whose status is not 0
  */
-#ifndef ISO_IO_HDF5_IMPL_H
-#define ISO_IO_HDF5_IMPL_H
+#ifndef ISO_IO_HDF5_HDF5_IMPL_H
+#define ISO_IO_HDF5_HDF5_IMPL_H
 
 #include <hdf5.h>
 

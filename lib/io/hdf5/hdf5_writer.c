@@ -18,7 +18,7 @@ static hid_t create_file(const char *path)
     return file;
 }
 
-static iso_status hdf5_create(iso_context *ctx, iso_table_writer *w, const char *path)
+static iso_status hdf5_open(iso_context *ctx, iso_table_writer *w, const char *path)
 {
     iso_hdf5_store *s = w->data = iso_hdf5_store_create();
     if (!s) return iso_text_no_memory(ctx, "write", path);
@@ -47,11 +47,11 @@ static bool write_attribute(hid_t at, const char *key, hid_t type, hsize_t count
     return written;
 }
 
-/* Reads a value as numbers with blanks between, and returns how many; 0: it is text. */
-static int numbers_of(const char *key, const char *value, double numbers[ISO_HDF5_NUMBERS])
+/* Reads a value that is numbers with blanks between, and returns how many; 0: it is text, or has too many numbers. */
+static int read_numbers(const char *key, const char *value, double numbers[ISO_HDF5_NUMBERS])
 {
     int count = 0;
-    if (strcmp(key, "hash") == 0 || strcmp(key, "sum") == 0) return 0; /* digits that are no number */
+    if (strcmp(key, "hash") == 0 || strcmp(key, "sum") == 0) return 0; /* of hexadecimal digits: 12e3 is no number */
     for (const char *c = value; *c && count < ISO_HDF5_NUMBERS; count++) {
         const size_t length = strcspn(c, " ");
         if (!iso_number_read(c, length, &numbers[count])) return 0;
@@ -66,7 +66,7 @@ static iso_status hdf5_line(iso_context *ctx, iso_table_writer *w, const char *k
 {
     const iso_hdf5_store *s = w->data;
     double numbers[ISO_HDF5_NUMBERS];
-    const int count = numbers_of(key, value, numbers);
+    const int count = read_numbers(key, value, numbers);
     bool written;
     ISO_HDF5_QUIETLY(written = count > 0 ? write_attribute(s->file, key, H5T_NATIVE_DOUBLE, (hsize_t)count, numbers)
                                          : write_attribute(s->file, key, s->text, 1, &value));
@@ -100,8 +100,8 @@ static bool add_set(iso_hdf5_store *s, const char *group, const char *name, bool
     return iso_hdf5_store_add(s, (iso_hdf5_set){id, first, count, words, 0, 0});
 }
 
-/* The format, the datasets, those of a trajectory in its parts, and the names of the columns in their order. */
-static bool create(const iso_table_writer *w, const iso_record *header, bool named)
+/* Adds the format, the datasets (a trajectory's in its parts) and, if `named`, the names of all columns. */
+static bool add_layout(const iso_table_writer *w, const iso_record *header, bool named)
 {
     iso_hdf5_store *s = w->data;
     const size_t columns = iso_record_columns(header);
@@ -134,7 +134,7 @@ static iso_status hdf5_header(iso_context *ctx, iso_table_writer *w, const iso_r
     if (!s->block) return iso_text_no_memory(ctx, "write", w->name);
     s->words = w->words;
     s->grows = w->expected == SIZE_MAX;
-    ISO_HDF5_QUIETLY(good = create(w, header, named));
+    ISO_HDF5_QUIETLY(good = add_layout(w, header, named));
     iso_status status = good ? ISO_OK : iso_hdf5_trouble(ctx, "write", w->name);
     for (size_t i = 0; status == ISO_OK && iso_record_line(header, i, &key, &value); i++)
         if (strcmp(key, "format") != 0 && (!named || strcmp(key, ISO_HDF5_COLUMNS) != 0))
@@ -163,7 +163,7 @@ static iso_status hdf5_row(iso_context *ctx, iso_table_writer *w, const double r
     return w->waits ? ISO_OK : flush_block(ctx, w);
 }
 
-static iso_status hdf5_finish(iso_context *ctx, iso_table_writer *w, bool keep)
+static iso_status hdf5_close(iso_context *ctx, iso_table_writer *w, bool keep)
 {
     iso_hdf5_store *s = w->data;
     iso_output *const out = s->out;
@@ -176,4 +176,4 @@ static iso_status hdf5_finish(iso_context *ctx, iso_table_writer *w, bool keep)
     return status == ISO_OK ? renamed : status;
 }
 
-const iso_table_writing iso_hdf5_writing = {hdf5_create, hdf5_header, hdf5_row, hdf5_line, NULL, NULL, hdf5_finish};
+const iso_table_writing iso_hdf5_writing = {hdf5_open, hdf5_header, hdf5_row, hdf5_line, NULL, NULL, hdf5_close};

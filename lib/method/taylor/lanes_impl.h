@@ -3,8 +3,8 @@
  * Each lane has its own orbit, step and time; when its orbit is done, it takes the next. No operation mixes lanes, so
  * the states of an orbit do not depend, bit for bit, on the orbits beside it, nor on their order.
  */
-#ifndef ISO_METHOD_LANES_IMPL_H
-#define ISO_METHOD_LANES_IMPL_H
+#ifndef ISO_METHOD_TAYLOR_LANES_IMPL_H
+#define ISO_METHOD_TAYLOR_LANES_IMPL_H
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 /* return_map_impl.h - the return map of the global section in numbers of 64 and of 113 bits: see return_impl.h. */
-#ifndef ISO_METHOD_RETURN_MAP_IMPL_H
-#define ISO_METHOD_RETURN_MAP_IMPL_H
+#ifndef ISO_METHOD_TAYLOR_RETURN_MAP_IMPL_H
+#define ISO_METHOD_TAYLOR_RETURN_MAP_IMPL_H
 
 #include "model/model.h"
 

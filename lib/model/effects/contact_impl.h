@@ -5,8 +5,8 @@
  *
  * Both set dy[0..5] = (w', n'), n' = k n x w. The Jacobian is in slopes.c.
  */
-#ifndef ISO_MODEL_CONTACT_IMPL_H
-#define ISO_MODEL_CONTACT_IMPL_H
+#ifndef ISO_MODEL_EFFECTS_CONTACT_IMPL_H
+#define ISO_MODEL_EFFECTS_CONTACT_IMPL_H
 
 #include "base/vec3_impl.h"
 #include "model/problem.h"

@@ -22,8 +22,8 @@
  * States y are those of the whole model (model.h): omega, n, then the states of the effects, those of effect e from
  * y[f->at[e]] on. Functions of a row work in the ball's own units, in which everything is of order one.
  */
-#ifndef ISO_MODEL_EFFECT_H
-#define ISO_MODEL_EFFECT_H
+#ifndef ISO_MODEL_EFFECTS_EFFECT_H
+#define ISO_MODEL_EFFECTS_EFFECT_H
 
 #include "model/system.h"
 

@@ -3,8 +3,8 @@
  * To add an effect, write its row in lib/model/effects/effect_<name>.c and add its line here (lib/README.md shows
  * how). The order is that of the states in a model, of the columns in a trajectory and of the effects in lists.
  */
-#ifndef ISO_MODEL_EFFECT_LIST_H
-#define ISO_MODEL_EFFECT_LIST_H
+#ifndef ISO_MODEL_EFFECTS_EFFECT_LIST_H
+#define ISO_MODEL_EFFECTS_EFFECT_LIST_H
 
 #define ISO_EFFECT_LIST(X)                                                                                           \
     X(GRAVITY, gravity)                                                                                              \

@@ -1,7 +1,7 @@
 /* effects_impl.h - the effects for the rest of the library: their rows, what several of them use, and what they do.
  * effect.c asks the rows through the table; the rows in their turn ask which other effects are on. */
-#ifndef ISO_MODEL_EFFECTS_IMPL_H
-#define ISO_MODEL_EFFECTS_IMPL_H
+#ifndef ISO_MODEL_EFFECTS_EFFECTS_IMPL_H
+#define ISO_MODEL_EFFECTS_EFFECTS_IMPL_H
 
 #include <stddef.h>
 #include <string.h>

@@ -9,8 +9,8 @@
  *
  * Equal parts of a text are one node: the tree is a list in which each node stands behind those that it is made of.
  */
-#ifndef ISO_MODEL_EXPRESSION_IMPL_H
-#define ISO_MODEL_EXPRESSION_IMPL_H
+#ifndef ISO_MODEL_EXPRESSION_EXPRESSION_IMPL_H
+#define ISO_MODEL_EXPRESSION_EXPRESSION_IMPL_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 /* written_impl.h - expressions as lines of formulas: what the rows of the effects that a scene writes have in common.
  */
-#ifndef ISO_MODEL_WRITTEN_IMPL_H
-#define ISO_MODEL_WRITTEN_IMPL_H
+#ifndef ISO_MODEL_EXPRESSION_WRITTEN_IMPL_H
+#define ISO_MODEL_EXPRESSION_WRITTEN_IMPL_H
 
 #include "model/effects/effects_impl.h"
 #include "model/expression/expression_impl.h"

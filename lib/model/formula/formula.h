@@ -14,8 +14,8 @@
  * Some lines need omega'. They are called late: omega' follows from the torque, so these lines are computed in a
  * second pass, after the torque and omega'. No torque and no energy may be late.
  */
-#ifndef ISO_MODEL_FORMULA_H
-#define ISO_MODEL_FORMULA_H
+#ifndef ISO_MODEL_FORMULA_FORMULA_H
+#define ISO_MODEL_FORMULA_FORMULA_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -18,8 +18,8 @@
  *     Compute with constants by the calls: div_c(F, constant(F, 1), constant_k(F)), not constant(F, 1 / k).
  *     Each method then computes them in its own numbers, and 128 bits stay 128 bits.
  */
-#ifndef ISO_MODEL_FORMULA_IMPL_H
-#define ISO_MODEL_FORMULA_IMPL_H
+#ifndef ISO_MODEL_FORMULA_FORMULA_IMPL_H
+#define ISO_MODEL_FORMULA_FORMULA_IMPL_H
 
 #include "model/formula/formula_lines_impl.h"
 

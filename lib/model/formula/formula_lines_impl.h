@@ -1,6 +1,6 @@
 /* formula_lines_impl.h - the lines of a formula (formula.h): how they are written, and computed as numbers. */
-#ifndef ISO_MODEL_FORMULA_LINES_IMPL_H
-#define ISO_MODEL_FORMULA_LINES_IMPL_H
+#ifndef ISO_MODEL_FORMULA_FORMULA_LINES_IMPL_H
+#define ISO_MODEL_FORMULA_FORMULA_LINES_IMPL_H
 
 #include "model/formula/formula.h"
 

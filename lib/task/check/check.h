@@ -1,6 +1,6 @@
 /* check.h - does a trajectory solve its model? Constraints, integrals, clocks, and the flow from row to row. */
-#ifndef ISO_STUDY_CHECK_H
-#define ISO_STUDY_CHECK_H
+#ifndef ISO_TASK_CHECK_CHECK_H
+#define ISO_TASK_CHECK_CHECK_H
 
 #include "base/field.h"
 #include "base/record.h"

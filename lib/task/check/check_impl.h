@@ -5,8 +5,8 @@
  *     check_flow.c        from each row to the next: state and clocks
  *     check_effects.c     the same for the columns of effects; what lines state, against a row
  */
-#ifndef ISO_STUDY_CHECK_IMPL_H
-#define ISO_STUDY_CHECK_IMPL_H
+#ifndef ISO_TASK_CHECK_CHECK_IMPL_H
+#define ISO_TASK_CHECK_CHECK_IMPL_H
 
 #include "orbit/description.h"
 #include "orbit/rows_impl.h"

@@ -8,8 +8,8 @@
  * lie on one orbit. Where they are too far apart for it, the orbit is integrated. A row that is not on the orbit of the
  * row before is converted as it stands. Sums of times are compensated.
  */
-#ifndef ISO_ORBIT_CONVERT_H
-#define ISO_ORBIT_CONVERT_H
+#ifndef ISO_TASK_CONVERT_CONVERT_H
+#define ISO_TASK_CONVERT_CONVERT_H
 
 #include <math.h>
 

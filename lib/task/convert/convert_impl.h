@@ -1,7 +1,7 @@
 /* convert_impl.h - the study `convert`, and what a conversion is made of. The files call each other in one direction
  * only: convert_study.c -> convert.c -> convert_clock.c -> convert_row.c -> convert_stated.c. */
-#ifndef ISO_ORBIT_CONVERT_IMPL_H
-#define ISO_ORBIT_CONVERT_IMPL_H
+#ifndef ISO_TASK_CONVERT_CONVERT_IMPL_H
+#define ISO_TASK_CONVERT_CONVERT_IMPL_H
 
 #include "base/sink.h"
 #include "orbit/rows_impl.h"

@@ -19,8 +19,8 @@
  * - A cell that would take more than its share of the time is given up, and the tighter tolerances of its series are
  *   not tried.
  */
-#ifndef ISO_STUDY_COST_H
-#define ISO_STUDY_COST_H
+#ifndef ISO_TASK_COST_COST_H
+#define ISO_TASK_COST_COST_H
 
 #include "base/field.h"
 #include "orbit/orbit.h"

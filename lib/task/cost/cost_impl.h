@@ -1,6 +1,6 @@
 /* cost_impl.h - orbits of one scene walked along, within a time limit, and how far they are from each other. */
-#ifndef ISO_STUDY_COST_IMPL_H
-#define ISO_STUDY_COST_IMPL_H
+#ifndef ISO_TASK_COST_COST_IMPL_H
+#define ISO_TASK_COST_COST_IMPL_H
 
 #include "base/resources_impl.h"
 #include "study/options_impl.h"

@@ -3,8 +3,8 @@
  *     const iso_result_table *t;
  *     for (int i = 0; (t = iso_result_table_at(i)); i++) iso_columns_visit(t->fields, NULL, show, NULL);
  */
-#ifndef ISO_STUDY_LIST_IMPL_H
-#define ISO_STUDY_LIST_IMPL_H
+#ifndef ISO_TASK_LIST_LIST_IMPL_H
+#define ISO_TASK_LIST_LIST_IMPL_H
 
 #include <stdio.h>
 
