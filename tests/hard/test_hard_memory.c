@@ -262,7 +262,7 @@ static iso_status find_frequencies(const hard_road *way)
     o.samples = 512;
     iso_status status = iso_scene_load_text(ctx, "scene", text, strlen(text), &scene);
     if (status == ISO_OK) status = iso_frequencies_find(ctx, &scene, &o, &f);
-    digits = status == ISO_OK ? f.rotation : 0;
+    digits = status == ISO_OK ? f.ratio : 0;
     return status;
 }
 

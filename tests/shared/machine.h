@@ -213,7 +213,7 @@ static void put_frequencies(FILE *to)
         memset(&f, 0, sizeof f);
         put_status(to, ctx, iso_frequencies_find(ctx, i ? &open : &closed, &o, &f), true);
         for (int a = 0; a < f.angles; a++) put(to, f.angle[a].frequency, sizeof f.angle[a].frequency);
-        put(to, &f.rotation, sizeof f.rotation);
+        put(to, &f.ratio, sizeof f.ratio);
     }
     iso_analogue ball;
     const iso_analogue_problem problem = {.neumann = true, .c = {1, 2, 2.5}, .energy = 3};

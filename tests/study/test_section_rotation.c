@@ -70,8 +70,8 @@ static void test_frequencies(void)
     iso_frequencies f;
     must(iso_frequencies_find(ctx, &scene, &o, &f), "frequencies");
     const double found = rotation_of(&scene);
-    gsl_test(!(fabs(found - fold(1 / f.rotation)) < 1e-6), "the closed solution: %.10g, by crossings %.10g",
-             fold(1 / f.rotation), found);
+    gsl_test(!(fabs(found - fold(1 / f.ratio)) < 1e-6), "the closed solution: %.10g, by crossings %.10g",
+             fold(1 / f.ratio), found);
     scene = ball_scene(0.5, J);
     gsl_test(!isnan(rotation_of(&scene)), "a chaotic orbit has none");
 }
