@@ -2,6 +2,7 @@
 # documents.sh ISOROLL - the documents: how long they are, whether their links lead somewhere, whether they cite what the
 # bibliography has, whether the commands of the README work, and whether the gallery shows every example.
 . "$(dirname "$0")/lib.sh"
+: "${ISO_BUILD:?}"
 documents=$(cd "$source" && find . -name '*.md' ! -path './.build/*' ! -path './.git/*' | sort)
 check "there are documents" test "$(echo "$documents" | wc -l)" -ge 5
 
@@ -47,7 +48,11 @@ for picture in "$source"/examples/*/*.svg; do
 done
 
 # --- the README, line by line
-if has gnuplot "the README's lines" && has pkg-config "the README's lines" && [ -n "${ISO_BUILD-}" ]; then
+find_python numpy
+[ -n "$python" ] || skip "the README's lines" "python3-numpy is not installed"
+if has gnuplot "the README's lines" && has pkg-config "the README's lines" && [ -n "$python" ]; then
+    mkdir bin && ln -s "$(command -v "$python")" bin/python3
+    PATH=$PWD/bin:$PATH && export PATH
     check "the README's lines run" sh "$source/tests/readme.sh" "$ISO_BUILD"
 fi
 
