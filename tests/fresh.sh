@@ -1,15 +1,15 @@
 #!/bin/sh
-# fresh.sh SUITE [demo | tests]... - what a newcomer types, on an empty Debian of its own: debootstrap makes SUITE (such
+# fresh.sh SUITE [readme | tests]... - what a newcomer types, on an empty Debian of its own: debootstrap makes SUITE (such
 # as bookworm, trixie) in a folder of its own, and the commands of README.md run there, on the sources of the last
-# commit: the demo, the tests, or both. At the end: the packages, the megabytes and the seconds that each took.
+# commit: all its lines (tests/readme.sh), the tests, or both. At the end: the packages, the megabytes and the seconds that each took.
 # It needs root, debootstrap (which it installs) and a network. Where it cannot have them, it says so and ends with 3.
 # MIRROR is an address for debootstrap, if its own is not wanted.
 set -eu
 cd "$(dirname "$0")/.."
-[ $# -gt 0 ] || { echo "usage: sh tests/fresh.sh SUITE [demo | tests]..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: sh tests/fresh.sh SUITE [readme | tests]..." >&2; exit 2; }
 suite=$1
 shift
-[ $# -gt 0 ] || set -- demo tests
+[ $# -gt 0 ] || set -- readme tests
 # impossible REASON: nothing can be tried here
 impossible() {
     echo "SKIP fresh: README's commands in an empty $suite: $1" >&2
@@ -54,9 +54,9 @@ report="$suite: empty: $(packages) packages, $(megabytes) MB, $(($(date +%s) - s
 status=0
 for what; do
     case $what in
-    demo) command=$(grep -o 'sh apps/demo\.sh\( --[a-z]*\)*' README.md | head -n 1) ;;
+    readme) command="sh tests/readme.sh" ;;
     tests) command=$(grep -o 'sh tests/run\.sh\( --[a-z]*\)*' README.md | head -n 1) ;;
-    *) echo "neither demo nor tests: $what" >&2 && exit 2 ;;
+    *) echo "neither readme nor tests: $what" >&2 && exit 2 ;;
     esac
     echo "=== $suite: $command"
     before="$(packages) $(megabytes)" start=$(date +%s)

@@ -274,6 +274,22 @@ class Numbers(Case):
         self.refuses(isoroll.BadInput, "<dict>", isoroll.sweep, {"scene": scene})
         self.refuses(isoroll.FileTrouble, "absent.yaml", isoroll.sweep, "absent.yaml")
 
+    def test_axes(self):
+        plan = {"scene": isoroll.Scene(WILD, end=20), "measure": {"state": {}}, "until": {"time": 1},
+                "vary": {"k": [0.7, 0.5], "J": {"triangle": 9, "ordered": True}, "l": [0.2, 0.1], "x": 0.3}}
+        table = isoroll.sweep(plan)
+        self.assertEqual([(name, each.shape) for name, each in table.axes.items()],
+                         [("k", (2,)), ("J", (3, 3)), ("l", (2,)), ("x", (1,))])
+        self.assertEqual(isoroll.sweep({**plan, "vary": {"k": {"from": 0.5, "to": 1}}, "samples": {"count": 3}}).axes, {})
+        try:
+            import xarray  # noqa: F401
+        except ImportError:
+            return self.assertRaisesRegex(ImportError, "to_xarray needs xarray", table.to_xarray)
+        grid = table.to_xarray()
+        for row, n1 in zip(table.array, table["state_n1"]):
+            at = grid.sel(k=row[1], l=row[5], x=0.3)
+            self.assertEqual(float(at.state_n1[np.flatnonzero(at.J1 == row[2])[0]]), n1)
+
     def test_fractions(self):
         scene, half = isoroll.Scene(WILD, end=20), Fraction(1, 2)
         self.assertEqual(isoroll.Scene(WILD, k=half).k, 0.5)

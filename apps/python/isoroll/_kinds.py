@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import html
-from typing import Any, Dict, Iterable, NamedTuple, Optional
+import itertools
+from typing import Any, Dict, Iterable, List, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -127,6 +128,46 @@ class Sweep(Table):
     def scene(self) -> str:
         """The text of its scene's file; "": the scene stands in the sweep."""
         return str(self.lines.text.get("scene", ""))
+
+    @property
+    def axes(self) -> Dict[str, NDArray[np.float64]]:
+        """What varies, and its values, if the points fill a grid: of a vector such as J, shape (values, 3). Else it
+        is empty: the sweep draws its points, or has but a part of them."""
+        said = str(self.lines.text.get("names", "")).split()
+        varied = [name[5:] for name in said if name.startswith("vary/")]
+        apart = [[name] for name in varied]
+        vectors = [list(group) for _, group in itertools.groupby(varied, lambda name: name.rstrip("123"))]
+        for axes in (apart, vectors):
+            values = {group[0] if len(group) == 1 else group[0].rstrip("123"): _in_order([self[name] for name in group])
+                      for group in axes}
+            points = np.meshgrid(*(np.arange(len(each)) for each in values.values()), indexing="ij")
+            if varied and points[0].size == len(self) and all(
+                    np.array_equal(np.stack([self[name] for name in group], 1), each[at.ravel()].reshape(len(self), -1))
+                    for group, each, at in zip(axes, values.values(), points)):
+                return values
+        return {}
+
+    def to_xarray(self) -> Any:
+        """A Dataset of xarray: a dimension for each number that varies, if the points fill a grid, else `point`. A
+        vector that varies, such as J, is one dimension, with its components as coordinates."""
+        try:
+            import xarray
+        except ImportError:
+            raise ImportError("to_xarray needs xarray, which is not installed here: pip install xarray") from None
+        axes = self.axes
+        shape, dims = tuple(map(len, axes.values())) or (len(self),), tuple(axes) or ("point",)
+        known = {name: (name, each) if each.ndim == 1 else (name, np.arange(len(each))) for name, each in axes.items()}
+        known.update((f"{name}{i + 1}", (name, each[:, i])) for name, each in axes.items() if each.ndim > 1
+                     for i in range(each.shape[1]))
+        data = {name: (dims, np.reshape(self[name], shape)) for name in self.columns if name not in known}
+        return xarray.Dataset(data, known, {"sweep": self.text})
+
+
+def _in_order(columns: List[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """The different rows of these columns, in the order in which they come first."""
+    rows = np.stack(columns, 1)
+    first = np.sort(np.unique(rows, axis=0, return_index=True)[1])
+    return rows[first, 0] if len(columns) == 1 else rows[first]
 
 
 class Comparison(Table):
