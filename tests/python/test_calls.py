@@ -280,7 +280,8 @@ class Numbers(Case):
         table = isoroll.sweep(plan)
         self.assertEqual([(name, each.shape) for name, each in table.axes.items()],
                          [("k", (2,)), ("J", (3, 3)), ("l", (2,)), ("x", (1,))])
-        self.assertEqual(isoroll.sweep({**plan, "vary": {"k": {"from": 0.5, "to": 1}}, "samples": {"count": 3}}).axes, {})
+        drawn = {"k": {"from": 0.5, "to": 1}, "J3": {"from": 5, "to": 6}}
+        self.assertEqual(isoroll.sweep({**plan, "vary": drawn, "samples": {"count": 3}}).axes, {})
         try:
             import xarray  # noqa: F401
         except ImportError:
