@@ -289,7 +289,7 @@ class Numbers(Case):
         grid = table.to_xarray()
         for row, n1 in zip(table.array, table["state_n1"]):
             at = grid.sel(k=row[1], l=row[5], x=0.3)
-            self.assertEqual(float(at.state_n1[np.flatnonzero(at.J1 == row[2])[0]]), n1)
+            self.assertEqual(float(at.state_n1[np.flatnonzero(at.J3 == row[4])[0]]), n1)
 
     def test_fractions(self):
         scene, half = isoroll.Scene(WILD, end=20), Fraction(1, 2)
