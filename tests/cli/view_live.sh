@@ -8,6 +8,13 @@ if ! "$isoroll" view --live -o lab.html 2>err; then
     impossible "a laboratory" "isoroll was built with ISO_LIVE=OFF"
 fi
 silent
+# own PAGE: without three.js, which is each system's own
+own() { awk '/^<script>$/ && !seen++ { out = 1 } !out; /^<\/script>$/ { out = 0 }' "$1"; }
+if [ ! -e "${ISO_BUILD-}/live/library.txt" ]; then # else the library is another one
+    own lab.html >lab.own
+    own "$source/examples/25_laboratory/laboratory.html" >kept.own
+    check "the page in examples/25_laboratory is that of: view --live -o laboratory.html" cmp lab.own kept.own
+fi
 run 0 view scene.yaml --live -o scene.html
 run 0 view scene.yaml -o plain.html
 check "the page of a scene has no library" test "$(grep -c -i webassembly plain.html)" = 0
@@ -22,6 +29,11 @@ run 0 run scene.yaml -o run.csv
 refuses 2 "view: --live computes from a scene: 'run.csv' is none" view run.csv --live -o no.html
 check "no page" test ! -e no.html
 
+if [ "$(length short full)" = short ]; then
+    skip "a laboratory in a browser" "it is tried at full length alone"
+    finish
+    exit
+fi
 if ! has chromium "a laboratory in a browser" || ! has python3 "a laboratory in a browser"; then
     finish
     exit
