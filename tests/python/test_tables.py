@@ -149,6 +149,11 @@ class Forms(Case):
         self.assertIsInstance(frame, pandas.DataFrame)
         np.testing.assert_array_equal(frame["n3"], table["n3"])
 
+    def test_codes(self):
+        found = isoroll.periodic(WILD, period=2)
+        self.assertEqual([found.codes["stability"][code] for code in found.rows["stability"]], list(found["stability"]))
+        self.assertEqual(isoroll.run(BALL).codes, {})
+
     def test_without_pandas_and_matplotlib(self):
         table = isoroll.run(BALL)
         with without("pandas"), self.assertRaisesRegex(ImportError, "to_pandas needs pandas.*pip install"):

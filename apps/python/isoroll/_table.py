@@ -175,6 +175,12 @@ class Table:
         words.flags.writeable = False
         return words
 
+    @property
+    def codes(self) -> Dict[str, Dict[float, str]]:
+        """What the numbers of columns of words mean in `array` and `rows`: codes["stability"][1.0] is "stable"."""
+        return {name: dict(zip(self.array[..., self.columns.index(name)].ravel().tolist(), self[name].ravel().tolist()))
+                for name in self._words}
+
     def __contains__(self, name: object) -> bool:
         return name in self.columns or (name in VECTORS and all(part in self.columns for part in VECTORS[str(name)]))
 
@@ -228,8 +234,8 @@ class Table:
 
     @property
     def rows(self) -> NDArray[Any]:
-        """The same memory as a structured array, shape (...): rows["t"], rows[5]["omega1"]. Only if the array has
-        gaps, it is a copy, which cannot be written to."""
+        """The same memory as a structured array, shape (...): rows["t"], rows[5]["omega1"]. A column of words has
+        its `codes`. Only if the array has gaps, it is a copy, which cannot be written to."""
         dtype, array = np.dtype([(name, np.float64) for name in self.columns]), np.ascontiguousarray(self.array)
         if not self.columns:
             return np.empty(array.shape[:-1], dtype)
