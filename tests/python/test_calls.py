@@ -25,15 +25,14 @@ ELSEWHERE = {
     "run": {"verbose": "errors=True",
             **dict.fromkeys(("certify", "digits", "work-digits"), "for the command: enclosures, which are no doubles")},
     "convert": {"digits": "table.write(digits=)", "max-defect": "a warning", "strict": "a warning"},
-    "sweep": {"resume": "for the command: a file", "shard": "for the command: many machines",
-              "merge": "for the command: files", "point": "for the command: prints a scene"},
+    "sweep": {"merge": "for the command: files", "point": "for the command: prints a scene"},
     "plot": {"k": "the table says it", "J": "the table says it", "eps": "the table says it", "h": "the table says it",
              "scene": "the table says it", "row-tolerance": "nothing is computed"},
 }
 #: keywords that are no options: what is studied, and how Python is told of progress; of each function
 OWN = {"scene", "table", "source", "progress", "columns"}
 OWN_OF = {"run": {"times", "errors", "changes"}, "plot": {"ax", "title", "output", "window", "over"}, "view": {"output"},
-          "list": {"topic"}, "chaos": {"at"}}  # which the library has, and the command not
+          "list": {"topic"}, "chaos": {"at"}, "sweep": {"output"}}  # which the library has, and the command not
 NO_CALL = {"manual": "documents of the command"}
 
 

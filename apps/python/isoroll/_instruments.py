@@ -184,10 +184,17 @@ def _points(given: Dict[str, Any]) -> None:
         given["at"] = points.reshape(-1, 2) if points.size else np.empty(0)
 
 
+#: keys of a scene, and options that say the same
+_KEYS_OF_SCENES = {"tolerance": "tol", "end": "t_end"}
+
+
 def _make(study: str) -> Callable[..., Any]:
     signature, make = _signature(study), _RETURNS.get(study, (_first, "", ""))[0]
 
     def instrument(*arguments: Any, **keywords: Any) -> Any:
+        for key, option in _KEYS_OF_SCENES.items():
+            if key in keywords and option in signature.parameters and option not in keywords:
+                keywords[option] = keywords.pop(key)
         try:
             bound = signature.bind(*arguments, **keywords).arguments
         except TypeError as error:

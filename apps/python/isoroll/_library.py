@@ -325,8 +325,16 @@ class _OfThread(threading.local):
         self.notes = ctypes.create_string_buffer(Notes._ROOM)
 
 
+def is_fraction(value: Any) -> bool:
+    """Fraction(1, 2), of Python or of others; not a whole number."""
+    return isinstance(value, numbers.Rational) and not isinstance(value, numbers.Integral)
+
+
 def number(name: str, value: Any) -> Any:
-    """A number as it is: of Python or of NumPy. Others that float() would take are none: bool, "1e3", b"1", a time."""
+    """A number as it is: of Python or of NumPy, or a fraction. Others that float() would take are none: bool, "1e3",
+    b"1", a time."""
+    if is_fraction(value):
+        return float(value)
     if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value):
         value = value[()]
     if isinstance(value, (bool, np.bool_, np.timedelta64)) or not isinstance(value, (int, float, np.integer, np.floating)):
@@ -334,15 +342,10 @@ def number(name: str, value: Any) -> Any:
     return value
 
 
-def is_fraction(value: Any) -> bool:
-    """Fraction(1, 2), of Python or of others; not a whole number."""
-    return isinstance(value, numbers.Rational) and not isinstance(value, numbers.Integral)
-
-
 def real(name: str, value: Any) -> float:
     """A number as a double."""
     try:
-        return float(value if is_fraction(value) else number(name, value))
+        return float(number(name, value))
     except OverflowError:
         raise _errors.BadArgument(f"{name} is out of the range of doubles") from None
 

@@ -41,8 +41,7 @@ _BALL, _POINT = ("normal", "angular_velocity"), ("gamma", "M")
 
 
 #: what others call a key: columns of a table, options of the command, letters of the theory
-_ALSO = {"omega": "angular_velocity", "w": "angular_velocity", "n": "normal", "tol": "tolerance", "t_end": "end",
-         "m": "mass", "I": "inertia"}
+_ALSO = {"omega": "angular_velocity", "w": "angular_velocity", "n": "normal", "m": "mass", "I": "inertia"}
 
 
 def _unknown(key: str) -> TypeError:
@@ -129,6 +128,8 @@ class Scene(Owned):
     ...               angular_velocity=(1, 2, 0))
     >>> isoroll.Scene(k=-1, J=(6, 4, 2), eps=0.5, gamma=(1, 0, 0), M=(0, 0.1, 0.2))
 
+    `tol` and `t_end`, as options call them, are `tolerance` and `end`.
+
     Scenes are values: equal if they say the same, whatever the order and the digits; they can be keys of dicts, and
     be copied and pickled. They cannot be changed.
     """
@@ -145,6 +146,7 @@ class Scene(Owned):
                  step: Optional[float] = None, backend: Optional[str] = None, method: Optional[str] = None,
                  tolerance: Optional[float] = None, as_: Optional[str] = None,
                  columns: Union[None, str, Sequence[str]] = None, **others: Any) -> None:
+        tolerance, end = others.pop("tol", tolerance), others.pop("t_end", end)  # as options call them
         asked = dict(k=k, J=J, D=D, eps=eps, normal=normal, angular_velocity=angular_velocity, gamma=gamma, M=M,
                      project=project, mass=mass, radius=radius, inertia=inertia, surface=surface)
         keys = {key: value for key, value in asked.items() if value is not None}
