@@ -83,7 +83,7 @@ END
         print "time: {end: 1}" }' >point_level.yaml
     for model in ball point; do
         run 0 frequencies ${model}_level.yaml --turns 200
-        awk '$1 == "frequency" { print $2, $3, $4 }' out >$model.frequencies
+        awk '$1 == "frequency" && $2 ~ /^[0-9]/ { print $2, $3, $4 }' out >$model.frequencies
         check "$model: two angles" test "$(wc -l <$model.frequencies)" -eq 2
     done
     at_most "k = $k: ball and point on a level" "$(paste ball.frequencies point.frequencies | awk '

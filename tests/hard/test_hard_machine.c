@@ -177,6 +177,7 @@ static double trapped(const answer *plain, const hard_road *way, const struct st
     fflush(NULL);
     const pid_t child = fork();
     if (child == 0) {
+        feclearexcept(FE_ALL_EXCEPT); /* flags of earlier work would trap here, in the host itself */
         feenableexcept(TRAPS);
         answer a = way ? orbit_by(ctx, way) : study_by(study);
         const bool stands = fegetexcept() == TRAPS;
