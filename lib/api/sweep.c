@@ -38,7 +38,11 @@ static iso_status open_store(iso_context *ctx, const request *r, const iso_sweep
                                  "sweep: resume and shard need an output, the file that they are about");
     if (r->shard && !iso_sweep_shard_read(r->shard, &shard))
         return ISO_FAIL_ARGUMENT(ctx, "shard", "shard '%s': expected i/n with 1 <= i <= n", r->shard);
-    return iso_sweep_store_open(ctx, r->output, head, shard, r->resume, store);
+    ISO_TRY(iso_sweep_store_open(ctx, r->output, head, shard, r->resume, store));
+    if (!r->output || (*store)->part || (*store)->done == (*store)->wanted) return ISO_OK;
+    iso_sweep_store_close(*store), *store = NULL;
+    return ISO_FAIL_ARGUMENT(ctx, "output", "output '%s' is no regular file: rows could not be read again",
+                             r->output);
 }
 
 /* The rows of a store; of a file, those of the whole file. */

@@ -239,7 +239,7 @@ static bool is_plain(const yaml_node_t *n)
 
 static bool read_number(const yaml_node_t *n, double *value)
 {
-    return is_plain(n) && iso_number_read((const char *)n->data.scalar.value, n->data.scalar.length, value);
+    return is_plain(n) && iso_rational_read_double((const char *)n->data.scalar.value, n->data.scalar.length, value);
 }
 
 iso_status iso_yaml_number(const iso_yaml *y, const yaml_node_t *n, const char *what, double *value)
@@ -249,9 +249,8 @@ iso_status iso_yaml_number(const iso_yaml *y, const yaml_node_t *n, const char *
 
 iso_status iso_yaml_ratio(const iso_yaml *y, const yaml_node_t *n, const char *what, double *value)
 {
-    if (is_plain(n) && iso_rational_read_double((const char *)n->data.scalar.value, n->data.scalar.length, value))
-        return ISO_OK;
-    return iso_yaml_expected(y, n, what, "a finite number or a fraction, such as 1/3");
+    return read_number(n, value) ? ISO_OK
+                                 : iso_yaml_expected(y, n, what, "a finite number or a fraction, such as 1/3");
 }
 
 iso_status iso_yaml_numbers(iso_yaml *y, const yaml_node_t *n, const char *what, int count, double values[])

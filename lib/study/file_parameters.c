@@ -33,10 +33,31 @@ static iso_status set_from_scene(iso_context *ctx, iso_record *record, const cha
         return status == ISO_OK ? iso_record_set_numbers(ctx, record, key, count, values) : status;
     for (size_t i = 0; i < count; i++)
         if (!(fabs(said[i] - values[i]) <= iso_record_row_tolerance(record) * fabs(values[i])))
-            return ISO_FAIL_INPUT(ctx, "scene",
-                                  "--scene contradicts the file, which says '# %s: %s': the scene has %.10g", key,
-                                  iso_record_get(record, key), values[i]);
+            return ISO_FAIL_INPUT(ctx, "scene", "--scene has %s = %.10g, and the file or an option says '# %s: %s'",
+                                  key, values[i], key, iso_record_get(record, key));
     return ISO_OK;
+}
+
+/* Numbers of effects that both the record and the scene say, such as level.c. Those that one of them lacks may only
+ * observe. */
+static iso_status compare_effects(iso_context *ctx, const iso_record *record, const iso_effects *effects)
+{
+    const char *key, *value;
+    iso_record *scene;
+    iso_status status = iso_record_create(ctx, 0, NULL, &scene);
+    if (status == ISO_OK) status = iso_record_describe_effects(ctx, scene, effects);
+    for (size_t i = 0; status == ISO_OK && iso_record_line(scene, i, &key, &value); i++) {
+        double theirs, ours;
+        iso_status unused;
+        if (strchr(value, ' ') || !iso_record_get_numbers(ctx, scene, key, 1, &theirs, &unused) ||
+            !iso_record_get_numbers(ctx, record, key, 1, &ours, &status) ||
+            fabs(ours - theirs) <= iso_record_row_tolerance(record) * fabs(theirs))
+            continue;
+        status = ISO_FAIL_INPUT(ctx, "scene", "--scene has %s = %.10g, and the file says '# %s: %s'", key, theirs,
+                                key, iso_record_get(record, key));
+    }
+    iso_record_free(scene);
+    return status;
 }
 
 /* Takes from a scene what the record does not say. */
@@ -47,8 +68,10 @@ static iso_status set_scene(iso_context *ctx, const iso_scene *scene, iso_record
     ISO_TRY(set_from_scene(ctx, record, "k", 1, &scene->params.k));
     ISO_TRY(set_from_scene(ctx, record, "J", 3, scene->params.J));
     if (scene->params.D > 0) ISO_TRY(set_from_scene(ctx, record, "D", 1, &scene->params.D));
-    if (point && !iso_record_get(record, "h")) ISO_TRY(set_from_scene(ctx, record, "eps", 1, &scene->start.eps));
-    return iso_record_get(record, "effects") ? ISO_OK : iso_record_describe_effects(ctx, record, &effects);
+    if (point && (iso_record_get(record, "eps") || !iso_record_get(record, "h")))
+        ISO_TRY(set_from_scene(ctx, record, "eps", 1, &scene->start.eps));
+    if (!iso_record_get(record, "effects")) return iso_record_describe_effects(ctx, record, &effects);
+    return compare_effects(ctx, record, &effects);
 }
 
 iso_status iso_file_parameters_apply(iso_context *ctx, const iso_file_parameters *o, const iso_scene *scene,

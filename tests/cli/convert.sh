@@ -39,8 +39,12 @@ refuses 2 "[1e-15, 0.1]" convert --to point --tol 1 ball.csv
 refuses 3 "--k contradicts the file, which says '# k: -1'" convert --to point --k 1 ball.csv
 refuses 3 "--J contradicts" convert --to point --J 1,2,3 ball.csv
 sed 's/k: -1/k: 0.5/' scene.yaml >other.yaml
-refuses 3 "--scene contradicts the file, which says '# k: -1'" convert --to point --scene other.yaml ball.csv
-refuses 3 "--scene contradicts the file" check --scene other.yaml ball.csv
+refuses 3 "--scene has k = 0.5, and the file or an option says '# k: -1'" convert --to point --scene other.yaml ball.csv
+{ cat scene.yaml && echo "effects: {level: {c: 1}}"; } >level.yaml
+run 0 run level.yaml --as ball -o level.csv
+sed 's/c: 1/c: 2/' level.yaml >other_level.yaml
+refuses 3 "--scene has level.c = 2, and the file says '# level.c: 1'" convert --to point --scene other_level.yaml level.csv
+refuses 3 "--scene has k = 0.5" check --scene other.yaml ball.csv
 for line in h eps tolerance t0; do
     { echo "# $line: abc"; grep -v "^# $line:" ball.csv; } >wrong.csv
     refuses 3 "'$line: abc' should be 1 finite number" convert --to point wrong.csv -o none.csv

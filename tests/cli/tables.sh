@@ -194,6 +194,8 @@ if has gnuplot "pictures of tables"; then draws=yes; fi
 if "$isoroll" view ball.yaml -o page.html 2>/dev/null; then views=yes; else skip "pages of tables" "this build has no three.js"; fi
 if "$isoroll" run ball.yaml -o probe.h5 2>/dev/null; then endings="csv h5"; else skip "HDF5" "this build has none"; fi
 [ "$endings" = csv ] || refuses 3 "<stdin>:1:1: this is an HDF5 file: give its name" check - <probe.h5
+echo "t,n1,n2,n3" | gzip >zipped.csv.gz
+refuses 3 "zipped.csv.gz:1:1: this file is compressed by gzip: gunzip it first" check zipped.csv.gz
 run 0 list tables
 cp out tables
 check "each column has a meaning" awk '/^    [^ ]/ && NF < 3 { print; bad = 1 } END { exit bad }' tables

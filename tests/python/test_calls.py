@@ -268,7 +268,10 @@ class Numbers(Case):
             self.command("plot", "python_" + name, "--value", "state_n1", "-o", "picture.svg")  # it is a whole result
         part = isoroll.sweep(self.path("sweep.yaml"), output=self.path("part.csv"), shard="1/2")
         self.assertTrue(0 < len(part) < 5)
-        self.refuses(isoroll.BadArgument, "need an output", isoroll.sweep, self.path("sweep.yaml"), resume=True)
+        for said, wrong in (("need an output", {"resume": True}), ("is no regular file", {"output": "/dev/null"}),
+                            ("the end of a line", {"output": "a.csv\nshard=1/2"}), ("expected i/n", {"output": "a", "shard": "2"}),
+                            ("True or False", {"output": "a", "resume": "false"}), ("must be a text", {"output": 5})):
+            self.refuses(isoroll.BadArgument, said, isoroll.sweep, self.path("sweep.yaml"), **wrong)
         self.assertEqual(rows_of(self.path("command_s.csv")), rows_of(self.path("python_s.csv")))
         self.refuses(isoroll.BadInput, "<dict>", isoroll.sweep, {"scene": scene})
         self.refuses(isoroll.FileTrouble, "absent.yaml", isoroll.sweep, "absent.yaml")
@@ -279,7 +282,11 @@ class Numbers(Case):
         table = isoroll.sweep(plan)
         self.assertEqual([(name, each.shape) for name, each in table.axes.items()],
                          [("k", (2,)), ("J", (3, 3)), ("l", (2,)), ("x", (1,))])
-        drawn = {"k": {"from": 0.5, "to": 1}, "J3": {"from": 5, "to": 6}}
+        for vary, shape in (({"J": [[1, 2, 5], [1, 2, 4]]}, {"J": (2, 3)}), ({"k": [0.5, 0.5, 0.6], "J3": [4, 5]}, {}),
+                            ({"J2": [2, "5/2"], "J3": [Fraction(9, 2), 5, 4]}, {"J2": (2,), "J3": (3,)})):
+            found = isoroll.sweep({**plan, "vary": vary}).axes
+            self.assertEqual({name: each.shape for name, each in found.items()}, shape)
+        drawn = {"J2": {"from": 2, "to": 3}, "J3": {"from": 5, "to": 6}}
         self.assertEqual(isoroll.sweep({**plan, "vary": drawn, "samples": {"count": 3}}).axes, {})
         try:
             import xarray  # noqa: F401
@@ -299,6 +306,9 @@ class Numbers(Case):
             self.same(isoroll.splitting(scene, k=k, digits="double").m, one)
         self.same(isoroll.run(scene, t_end=half).array, isoroll.run(scene, t_end=0.5).array)
         ball = isoroll.run(scene, [0, 1])
+        self.same(isoroll.section(scene, at=[("1/2", half)], crossings=2).array,
+                  isoroll.section(scene, at=[(0.5, 0.5)], crossings=2).array)
+        self.refuses(isoroll.BadArgument, "a fraction such as 1/2", isoroll.run, scene, t_end="1/0")
         bare = isoroll.trajectory({"t": ball.t, "omega": ball.omega, "n": ball.n})
         self.same(isoroll.convert(bare, "point", k=half, J=scene.J).array,
                   isoroll.convert(ball, "point").array)

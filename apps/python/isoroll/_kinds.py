@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import html
-import itertools
-from typing import Any, Dict, Iterable, List, NamedTuple, Optional
+from typing import Any, Dict, Iterable, NamedTuple, Optional, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._table import CLASSES, Table
+from ._yaml import load
 
 
 class Trajectory(Table):
@@ -132,20 +132,21 @@ class Sweep(Table):
     @property
     def axes(self) -> Dict[str, NDArray[np.float64]]:
         """What varies, and its values, if the points fill a grid: of a vector such as J, shape (values, 3). Else it
-        is empty: the sweep draws its points, or has but a part of them."""
-        said = str(self.lines.text.get("names", "")).split()
-        varied = [name[5:] for name in said if name.startswith("vary/")]
-        apart = [[name] for name in varied]
-        vectors = [list(group) for _, group in itertools.groupby(varied, lambda name: name.rstrip("123"))]
-        for axes in (apart, vectors):
-            values = {group[0] if len(group) == 1 else group[0].rstrip("123"): _in_order([self[name] for name in group])
-                      for group in axes}
-            points = np.meshgrid(*(np.arange(len(each)) for each in values.values()), indexing="ij")
-            if varied and points[0].size == len(self) and all(
-                    np.array_equal(np.stack([self[name] for name in group], 1), each[at.ravel()].reshape(len(self), -1))
-                    for group, each, at in zip(axes, values.values(), points)):
-                return values
-        return {}
+        is empty: the sweep draws its points, or has but a part of them, or has a value twice in a row."""
+        plan = load(self.text.encode(), "<sweep>")
+        names = [name[5:] for name in str(self.lines.text.get("names", "")).split() if name.startswith("vary/")]
+        values: Dict[str, NDArray[np.float64]] = {}
+        stride = len(self)
+        if "samples" in plan:
+            return {}
+        for key in plan.get("vary", {}):
+            width = 2 if key == "start" else 3 if names[:1] == [key + "1"] else 1
+            rows = np.stack([self[name] for name in names[:width]], 1)
+            names = names[width:]
+            values[key], stride = _cycle(rows, stride)
+            if key != "start" and width == 1:
+                values[key] = values[key][:, 0]
+        return values if stride == 1 and not names else {}
 
     def to_xarray(self) -> Any:
         """A Dataset of xarray: a dimension for each number that varies, if the points fill a grid, else `point`. A
@@ -157,17 +158,24 @@ class Sweep(Table):
         axes = self.axes
         shape, dims = tuple(map(len, axes.values())) or (len(self),), tuple(axes) or ("point",)
         known = {name: (name, each) if each.ndim == 1 else (name, np.arange(len(each))) for name, each in axes.items()}
-        known.update((f"{name}{i + 1}", (name, each[:, i])) for name, each in axes.items() if each.ndim > 1
-                     for i in range(each.shape[1]))
+        for name, each in axes.items():
+            for i in range(each.shape[1] if each.ndim > 1 else 0):
+                known["lx"[i] if name == "start" else f"{name}{i + 1}"] = (name, each[:, i])
         data = {name: (dims, np.reshape(self[name], shape)) for name in self.columns if name not in known}
         return xarray.Dataset(data, known, {"sweep": self.text})
 
 
-def _in_order(columns: List[NDArray[np.float64]]) -> NDArray[np.float64]:
-    """The different rows of these columns, in the order in which they come first."""
-    rows = np.stack(columns, 1)
-    first = np.sort(np.unique(rows, axis=0, return_index=True)[1])
-    return rows[first, 0] if len(columns) == 1 else rows[first]
+def _cycle(rows: NDArray[np.float64], stride: int) -> Tuple[NDArray[np.float64], int]:
+    """The values of an axis that changes after `stride`/values points, the first axis slowest; and that number."""
+    here = rows[:stride]
+    changes = np.flatnonzero((here[1:] != here[:-1]).any(1)) + 1
+    each = int(changes[0]) if len(changes) else max(stride, 1)
+    if stride == 0 or stride % each or not np.array_equal(here, np.repeat(here[::each], each, 0)):
+        return here[:0], 0
+    if not np.array_equal(rows, np.tile(here, (len(rows) // stride, 1)) if len(rows) % stride == 0 else here):
+        return here[:0], 0
+    return here[::each], each
+
 
 
 class Comparison(Table):

@@ -8,6 +8,7 @@ from __future__ import annotations
 import ctypes
 import numbers
 import os
+import re
 import signal
 import sys
 import threading
@@ -325,16 +326,31 @@ class _OfThread(threading.local):
         self.notes = ctypes.create_string_buffer(Notes._ROOM)
 
 
-def is_fraction(value: Any) -> bool:
-    """Fraction(1, 2), of Python or of others; not a whole number."""
-    return isinstance(value, numbers.Rational) and not isinstance(value, numbers.Integral)
+def fraction(value: Any) -> Optional[str]:
+    """Fraction(1, 2), or the text of a fraction, as a text: "1/2". None: it is neither."""
+    if isinstance(value, numbers.Rational) and not isinstance(value, numbers.Integral):
+        return f"{value.numerator}/{value.denominator}"
+    return value if isinstance(value, str) and re.fullmatch(r"[-+.\deE]+/[-+.\deE]+", value) else None
+
+
+def _quotient(name: str, value: Any) -> Any:
+    """What is a fraction as a double; lists part by part; other things as they are."""
+    if isinstance(value, (list, tuple)):
+        return [_quotient(name, item) for item in value]
+    text = fraction(value)
+    if text is None:
+        return value
+    try:
+        top, below = map(float, text.split("/"))
+        return top / below
+    except (ValueError, ZeroDivisionError):
+        raise _errors.BadArgument(f"{name} is {value!r:.60}, it must be a number or a fraction such as 1/2") from None
 
 
 def number(name: str, value: Any) -> Any:
     """A number as it is: of Python or of NumPy, or a fraction. Others that float() would take are none: bool, "1e3",
     b"1", a time."""
-    if is_fraction(value):
-        return float(value)
+    value = _quotient(name, value)
     if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value):
         value = value[()]
     if isinstance(value, (bool, np.bool_, np.timedelta64)) or not isinstance(value, (int, float, np.integer, np.floating)):
@@ -370,6 +386,8 @@ def doubles(what: str, values: Any) -> NDArray[np.float64]:
         raise _errors.BadType(f"{what} must be real numbers, not {type(values).__name__}")
     if np.ma.is_masked(values):
         raise _errors.BadArgument(f"{what} has masked numbers: fill them first")
+    if array.dtype.kind in "OU":  # there may be fractions
+        array = np.asarray(_quotient(what, array.tolist()))
     if array.dtype != np.float64 and array.dtype.kind not in "iuf":
         raise _errors.BadType(f"{what} must be real numbers, not {array.dtype}")
     return np.asarray(array, dtype=np.float64)

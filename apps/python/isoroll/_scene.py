@@ -146,6 +146,8 @@ class Scene(Owned):
                  step: Optional[float] = None, backend: Optional[str] = None, method: Optional[str] = None,
                  tolerance: Optional[float] = None, as_: Optional[str] = None,
                  columns: Union[None, str, Sequence[str]] = None, **others: Any) -> None:
+        if (tolerance is not None and "tol" in others) or (end is not None and "t_end" in others):
+            raise TypeError("tol and tolerance say the same, and so do t_end and end: leave out one of them")
         tolerance, end = others.pop("tol", tolerance), others.pop("t_end", end)  # as options call them
         asked = dict(k=k, J=J, D=D, eps=eps, normal=normal, angular_velocity=angular_velocity, gamma=gamma, M=M,
                      project=project, mass=mass, radius=radius, inertia=inertia, surface=surface)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 import threading
 from ctypes import CFUNCTYPE, Structure, byref, c_char_p, c_double, c_size_t, c_void_p, cast, create_string_buffer
@@ -11,7 +10,7 @@ from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Tup
 import numpy as np
 
 from . import _errors
-from ._library import _raised, check, context, doubles, encoded, interruptible, is_fraction, lib, number
+from ._library import _raised, check, context, doubles, encoded, fraction, interruptible, lib, number
 from ._scene import Scene, SceneLike, as_scene
 from ._table import Record, Table, from_record, new_record
 
@@ -60,13 +59,6 @@ NEEDS_SCENE, NEEDS_RECORD, TAKES_SCENE = 1, 2, 4
 # --- options --------------------------------------------------------------------------------------------------------
 
 
-def _has_fraction(value: Any) -> bool:
-    """Fraction(1, 2), "1/2", or a list with one of them."""
-    if isinstance(value, (list, tuple)):
-        return any(map(_has_fraction, value))
-    return is_fraction(value) or (isinstance(value, str) and re.fullmatch(r"[-+.\deE]+/[-+.\deE]+", value) is not None)
-
-
 def text_of(name: str, value: Any) -> str:
     """An option as it is typed after the command: 3, 0.5, 1/2, "1,2,5", "l,x;l,x", "k=0.4:0.6", "omega1=0.1"."""
     if isinstance(value, Mapping):
@@ -75,9 +67,9 @@ def text_of(name: str, value: Any) -> str:
         return text_of(name, {value[0]: value[1]})
     if isinstance(value, str):
         return value
-    if is_fraction(value):
-        return f"{value.numerator}/{value.denominator}"
-    if _has_fraction(value):
+    if fraction(value):
+        return str(fraction(value))
+    if isinstance(value, (list, tuple)) and any(map(fraction, value)):
         return ",".join(text_of(name, item) for item in value)
     if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
         return str(int(value))
@@ -97,8 +89,6 @@ def _given(study: str, options: Mapping[str, Any]) -> Dict[str, str]:
     given = {key.rstrip("_").replace("_", "-"): value for key, value in options.items()
              if value is not None and value is not False and not (key == "at" and np.size(value) == 0)}
     for key, value in given.items():
-        if types.get(key) in ("number", "numbers") and _has_fraction(value):
-            continue  # the library reads it
         if types.get(key) in ("whole", "number"):
             number(key, value)
         elif types.get(key) == "numbers":

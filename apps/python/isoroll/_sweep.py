@@ -6,6 +6,8 @@ import os
 from ctypes import byref
 from typing import Any, Mapping, Optional, Tuple, Union
 
+import numpy as np
+
 from . import _errors
 from ._kinds import Sweep
 from ._library import check, context, encoded, interruptible, lib, whole
@@ -60,9 +62,16 @@ def sweep(source: SweepLike, *, output: Union[None, str, "os.PathLike[str]"] = N
 
     Returns a Sweep: a row for each point, with what varies, what was measured, status and reason; a point that fails
     has a status that is not 0. After Ctrl-C, the exception's `partial` has the points that are done; with an output
-    they are in FILE.part, and the same call with resume=True goes on.
+    they are in FILE.part (of FILE.h5: FILE.h5.csv.part), and the same call with resume=True goes on.
     """
     name, text = _named(source)
+    if not isinstance(resume, (bool, np.bool_)):
+        raise _errors.BadType(f"resume is {resume!r:.60}, it must be True or False")
+    for key, value in (("output", output), ("shard", shard)):
+        if not (value is None or isinstance(value, str) or (key == "output" and isinstance(value, os.PathLike))):
+            raise _errors.BadType(f"{key} is {value!r:.60}, it must be a text")
+        if "\n" in os.fspath(value or ""):
+            raise _errors.BadArgument(f"{key} is {value!r:.60}: it has the end of a line in it")
     lines = {"threads": whole("threads", threads, 0, 1024) or None, "output": output and os.fspath(output),
              "resume": "true" if resume else None, "shard": shard}
     options = encoded("\n".join(f"{key}={value}" for key, value in lines.items() if value is not None))

@@ -177,7 +177,8 @@ class Table:
 
     @property
     def codes(self) -> Dict[str, Dict[float, str]]:
-        """What the numbers of columns of words mean in `array` and `rows`: codes["stability"][1.0] is "stable"."""
+        """What the numbers of columns of words mean in `array` and `rows` of this table; in another one they differ:
+        codes["stability"][1.0] can be "stable"."""
         return {name: dict(zip(self.array[..., self.columns.index(name)].ravel().tolist(), self[name].ravel().tolist()))
                 for name in self._words}
 

@@ -10,7 +10,7 @@ from typing import Any, Callable, Dict, Mapping
 import numpy as np
 
 from . import _errors
-from ._library import check, context, encoded, is_fraction, lib
+from ._library import check, context, encoded, fraction, lib
 
 
 def _unknown(value: Any) -> Any:
@@ -42,8 +42,8 @@ def plain(value: Any) -> Any:
         return [plain(item) for item in value]
     if isinstance(value, np.floating):
         return float(value)
-    if is_fraction(value):
-        return f"{value.numerator}/{value.denominator}"
+    if not isinstance(value, str) and fraction(value):
+        return fraction(value)
     if isinstance(value, (np.ndarray, np.generic)) and not np.ma.is_masked(value):
         return value.tolist()
     return value

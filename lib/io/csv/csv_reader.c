@@ -50,6 +50,8 @@ static iso_status next_line(iso_csv *c, bool *more)
     if (c->number == 1 && strncmp(c->line, "\xEF\xBB\xBF", 3) == 0) c->line += 3, c->length -= 3; /* byte order */
     if (c->number == 1 && strncmp(c->line, "\x89HDF", 4) == 0)
         return iso_csv_fail(c, c->line, "this is an HDF5 file: give its name, it is not read from a pipe");
+    if (c->number == 1 && strncmp(c->line, "\x1f\x8b", 2) == 0)
+        return iso_csv_fail(c, c->line, "this file is compressed by gzip: gunzip it first");
     const char *nul = memchr(c->line, '\0', c->length);
     if (nul) return iso_csv_fail(c, nul, "a NUL byte: this is not a text file");
     while (c->length > 0 && c->line[c->length - 1] == '\r') c->line[--c->length] = '\0';
