@@ -150,7 +150,7 @@ static iso_params random_body(void)
 /* Its ball, effects and start are valid; end, step and solver are any. */
 static iso_scene random_scene(void)
 {
-    static const char *const methods[] = {"auto", "taylor", "rk8pd", "adams", "taylor_quad"};
+    static const char *const methods[] = {"auto", "taylor", "rk8pd", "adams", "taylor_extended"};
     const double *J = laws_J[rand() % LAWS_J];
     const bool point = chance(0.3), body = !point && chance(0.5);
     iso_scene s = iso_scene_default();
