@@ -1,7 +1,7 @@
 #!/bin/sh
-# fresh.sh SUITE [readme | tests]... - what a newcomer types, on an empty Debian of its own: debootstrap makes SUITE (such
-# as bookworm, trixie) in a folder of its own, and the commands of README.md run there, on the sources of the last
-# commit: all its lines (tests/readme.sh), the tests, or both. At the end: the packages, the megabytes and the seconds that each took.
+# fresh.sh SUITE [readme | tests]... - what a newcomer types, on an empty Debian of its own: debootstrap makes SUITE
+# (such as bookworm, trixie) in a folder of its own. There all lines of README.md run (tests/readme.sh), the tests, or
+# both, on the sources of the last commit. At the end: the packages, the megabytes and the seconds that each took.
 # It needs root, debootstrap (which it installs) and a network. Where it cannot have them, it says so and ends with 3.
 # MIRROR is an address for debootstrap, if its own is not wanted.
 set -eu

@@ -58,9 +58,10 @@ iso_status iso_yaml_key(iso_yaml *y, const yaml_node_t *mapping, const yaml_node
 iso_status iso_yaml_word(const iso_yaml *y, const yaml_node_t *n, const char *what, const char *(*word)(int),
                          unsigned allowed, int *value);
 
-/* The value of `what` as a finite number, a list of `count` numbers (9: three rows of three), true or false. */
+/* The value of `what` as a finite number, a list of `count` numbers (9: three rows of three), true or false. A number
+ * can be a fraction such as 1/3; only the message of iso_yaml_ratio says so. */
 iso_status iso_yaml_number(const iso_yaml *y, const yaml_node_t *node, const char *what, double *value);
-iso_status iso_yaml_ratio(const iso_yaml *y, const yaml_node_t *node, const char *what, double *value); /* or 1/3 */
+iso_status iso_yaml_ratio(const iso_yaml *y, const yaml_node_t *node, const char *what, double *value);
 iso_status iso_yaml_numbers(iso_yaml *y, const yaml_node_t *node, const char *what, int count, double values[]);
 iso_status iso_yaml_flag(const iso_yaml *y, const yaml_node_t *node, const char *what, bool *value);
 

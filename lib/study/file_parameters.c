@@ -22,24 +22,30 @@ static iso_status set_line(iso_context *ctx, iso_record *record, const char *key
     return iso_record_set_numbers(ctx, record, key, count, values);
 }
 
-/* A line of the record from a scene. If the file has that line already, it must say the same, to the digits of its
- * rows. */
-static iso_status set_from_scene(iso_context *ctx, iso_record *record, const char *key, size_t count,
-                                 const double values[])
+/* Where the record has the line, it must say what the scene has, to the digits of its rows. */
+static iso_status check_scene(iso_context *ctx, const iso_record *record, const char *key, size_t count,
+                              const double values[], const char *who, bool *there)
 {
     double said[3];
     iso_status status;
-    if (!iso_record_get_numbers(ctx, record, key, count, said, &status))
-        return status == ISO_OK ? iso_record_set_numbers(ctx, record, key, count, values) : status;
-    for (size_t i = 0; i < count; i++)
+    *there = iso_record_get_numbers(ctx, record, key, count, said, &status);
+    for (size_t i = 0; *there && i < count; i++)
         if (!(fabs(said[i] - values[i]) <= iso_record_row_tolerance(record) * fabs(values[i])))
-            return ISO_FAIL_INPUT(ctx, "scene", "--scene has %s = %.10g, and the file or an option says '# %s: %s'",
-                                  key, values[i], key, iso_record_get(record, key));
-    return ISO_OK;
+            return ISO_FAIL_INPUT(ctx, "scene", "--scene has %s = %.10g, and %s says '# %s: %s'", key, values[i], who,
+                                  key, iso_record_get(record, key));
+    return status;
 }
 
-/* Numbers of effects that both the record and the scene say, such as level.c. Those that one of them lacks may only
- * observe. */
+static iso_status set_from_scene(iso_context *ctx, iso_record *record, const char *key, size_t count,
+                                 const double values[])
+{
+    bool there;
+    ISO_TRY(check_scene(ctx, record, key, count, values, "the file or an option", &there));
+    return there ? ISO_OK : iso_record_set_numbers(ctx, record, key, count, values);
+}
+
+/* Numbers of effects that both the record and the scene say, such as level.c. An effect that one of them lacks may
+ * only observe. */
 static iso_status compare_effects(iso_context *ctx, const iso_record *record, const iso_effects *effects)
 {
     const char *key, *value;
@@ -47,14 +53,11 @@ static iso_status compare_effects(iso_context *ctx, const iso_record *record, co
     iso_status status = iso_record_create(ctx, 0, NULL, &scene);
     if (status == ISO_OK) status = iso_record_describe_effects(ctx, scene, effects);
     for (size_t i = 0; status == ISO_OK && iso_record_line(scene, i, &key, &value); i++) {
-        double theirs, ours;
+        double number;
         iso_status unused;
-        if (strchr(value, ' ') || !iso_record_get_numbers(ctx, scene, key, 1, &theirs, &unused) ||
-            !iso_record_get_numbers(ctx, record, key, 1, &ours, &status) ||
-            fabs(ours - theirs) <= iso_record_row_tolerance(record) * fabs(theirs))
-            continue;
-        status = ISO_FAIL_INPUT(ctx, "scene", "--scene has %s = %.10g, and the file says '# %s: %s'", key, theirs,
-                                key, iso_record_get(record, key));
+        bool there;
+        if (!strchr(value, ' ') && iso_record_get_numbers(ctx, scene, key, 1, &number, &unused))
+            status = check_scene(ctx, record, key, 1, &number, "the file", &there);
     }
     iso_record_free(scene);
     return status;

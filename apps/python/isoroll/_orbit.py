@@ -44,10 +44,8 @@ def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, backend: Optiona
     Returns a table of shape (rows, columns). There are fewer rows than times if the ball loses contact: a warning
     says when. After a failure, error.partial has the rows before it.
     """
-    if (tol is not None and "tolerance" in changes) or (t_end is not None and "end" in changes):
-        raise TypeError("tol and tolerance say the same, and so do t_end and end: leave out one of them")
-    changes.update({key: value for key, value in (("backend", backend), ("method", method), ("tolerance", tol),
-                                                  ("as_", as_), ("end", t_end), ("step", step)) if value is not None})
+    changes.update({key: value for key, value in (("backend", backend), ("method", method), ("tol", tol),
+                                                  ("as_", as_), ("t_end", t_end), ("step", step)) if value is not None})
     chosen, record = as_scene(scene, changes), None
     if times is not None:
         asked, new, ctx = np.atleast_1d(_times(times)).ravel(), new_record(), context()

@@ -100,10 +100,15 @@ def _given(study: str, options: Mapping[str, Any]) -> Dict[str, str]:
     texts = {key: text_of(key, {key: value} if key in ranges and not isinstance(value, str) else value)
              for key, value in given.items()}
     texts.update((key, texts[key].partition("=")[2]) for key in ranges & texts.keys() if "=" in texts[key])
+    return texts
+
+
+def lines_of(texts: Mapping[str, str]) -> str:
+    """Options as the library reads them: lines NAME=VALUE."""
     for key, text in texts.items():
         if "\n" in text:
             raise _errors.BadArgument(f"{key} is {text!r:.60}: it has the end of a line in it")
-    return texts
+    return "\n".join(f"{key}={text}" for key, text in texts.items())
 
 
 # --- progress -------------------------------------------------------------------------------------------------------
@@ -173,7 +178,7 @@ def ask(name: str, scene: Optional[SceneLike], record: Optional[Record], options
     sink = _Sink(None, None, cast(note, c_void_p), shown.pointer, None)
     kept: List[Any] = []
     given = _given(name, options)
-    text = "\n".join(f"{key}={value}" for key, value in given.items())
+    text = lines_of(given)
 
     def found() -> Optional[_Made]:
         if not kept:

@@ -12,7 +12,7 @@ from . import _errors
 from ._kinds import Sweep
 from ._library import check, context, encoded, interruptible, lib, whole
 from ._scene import Scene
-from ._study import Progress, ProgressLike
+from ._study import Progress, ProgressLike, lines_of
 from ._table import Table, from_record, new_record
 from ._yaml import dump
 
@@ -70,11 +70,11 @@ def sweep(source: SweepLike, *, output: Union[None, str, "os.PathLike[str]"] = N
     for key, value in (("output", output), ("shard", shard)):
         if not (value is None or isinstance(value, str) or (key == "output" and isinstance(value, os.PathLike))):
             raise _errors.BadType(f"{key} is {value!r:.60}, it must be a text")
-        if "\n" in os.fspath(value or ""):
-            raise _errors.BadArgument(f"{key} is {value!r:.60}: it has the end of a line in it")
-    lines = {"threads": whole("threads", threads, 0, 1024) or None, "output": output and os.fspath(output),
+    count = whole("threads", threads, 0, 1024)
+    given = {"threads": str(count) if count else None,
+             "output": None if output is None else os.fspath(output),
              "resume": "true" if resume else None, "shard": shard}
-    options = encoded("\n".join(f"{key}={value}" for key, value in lines.items() if value is not None))
+    options = encoded(lines_of({key: text for key, text in given.items() if text is not None}))
     new, ctx, shown = new_record(), context(), Progress(progress)
     kept: list[Any] = []
 

@@ -107,7 +107,7 @@ iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *all)
 
 /* --- beginning and end ------------------------------------------------------------------------------------------ */
 
-/* A line that is read later, where nobody asks for its status. */
+/* Refuses a line that is no number. These lines are read later, where an error would be lost. */
 static iso_status check_lines(const iso_conversion *c)
 {
     static const char *const keys[] = {"h", "eps", "tolerance", "t0", "s0"};

@@ -79,9 +79,8 @@ static iso_status check_energy(iso_conversion *c, conversion_row *r)
     if (r->other_energy)
         return iso_context_fail(
             c->ctx, ISO_NOT_MAPPED, "eps",
-            "the energy of this point is not that of the rows before: its M does not fit eps = "
-            "%.10g; leave out --eps and --h (or the lines # eps, # h) to take them from the first "
-            "row",
+            "the energy of this point is not that of the rows before: its M does not fit eps = %.10g; leave out "
+            "--eps and --h (or the lines # eps, # h) to take them from the first row",
             c->stated_eps);
     iso_worst_note(&c->summary.energy, off, r->line);
     return ISO_OK;

@@ -48,8 +48,7 @@ static iso_status check_energy(const work *w, const iso_record *header)
         if (isnan(first) || isnan(now))
             return ISO_FAIL_INPUT(
                 w->ctx, "",
-                "orbit %s has %s %s, unlike the first one: convert orbits of different energies one "
-                "by one",
+                "orbit %s has %s %s, unlike the first one: convert orbits of different energies one by one",
                 ISO_SHORT(w->row.orbit), isnan(now) ? "no" : "a", keys[i]);
         return ISO_FAIL_INPUT(w->ctx, "",
                               "orbit %s has %s = %.6g, the first one %.6g: convert orbits of different energies "
